@@ -1,7 +1,10 @@
-/* render.c: an example: renders a scene by psplat's library, shows how far it is, and writes NAME.exr and NAME.png.
+/* render.c: an example: renders a scene by psplat's library, shows how far it is, and writes
+ * NAME.exr and NAME.png.
  *
  *     cc -o render render.c $(pkg-config --cflags --libs psplat)
- *     ./render scene.psd NAME [OPTION=VALUE...]      # as size=640x360, time=10s, plugin=estimator=pathtrace
+ *     ./render scene.psd NAME [OPTION=VALUE...]
+ *
+ * An option is size=640x360, time=10s, plugin=estimator=pathtrace and so on.
  */
 #include <psplat/psplat.h>
 #include <signal.h>

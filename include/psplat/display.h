@@ -4,9 +4,9 @@
 
 #include <psplat/strategy.h>
 
-/* A curve whose upper part bends towards 1 as film does, after the exponential map of Ferschin, Tastl and Purgathofer
- * 1994: f(x) = x up to the shoulder a, and 1 - (1 - a) exp(-(x - a) / (1 - a)) beyond: value a and slope 1 on both
- * sides of a. 0 <= a < 1. */
+/* A curve whose upper part bends towards 1 as film does, after the exponential map of Ferschin,
+ * Tastl and Purgathofer 1994: f(x) = x up to the shoulder a, and 1 - (1 - a) exp(-(x - a) / (1 -
+ * a)) beyond: value a and slope 1 on both sides of a. 0 <= a < 1. */
 static inline double ps_shoulder(double x, double a)
 {
     return x > a ? 1.0 - (1.0 - a) * exp((a - x) / (1.0 - a)) : x;

@@ -2,12 +2,15 @@
  *
  *     PS_EVERY_ISA static void add(float *sums, const float *values, size_t n) { ... }
  *
- * Of x86-64 processors these are AVX-512, AVX2 and the baseline, of which the processor's best is picked as the library is loaded; elsewhere, and
- * with the address sanitizer, there is one. Loops that a compiler makes vectors of take the widest there are; what such
- * functions call is compiled with them only if it is PS_INLINED. They are static, since compilers differ in how they name those of other files.
+ * Of x86-64 processors these are AVX-512, AVX2 and the baseline, of which the processor's best is
+ * picked as the library is loaded; elsewhere, and with the address sanitizer, there is one. Loops
+ * that a compiler makes vectors of take the widest there are; what such functions call is compiled
+ * with them only if it is PS_INLINED. They are static, since compilers differ in how they name
+ * those of other files.
  *
- * All give the same result to the last bit if no multiplication is joined with an addition (-ffp-contract=off, or ISO C, is
- * what gcc needs for that; clang gets the pragma) and sums keep their order.
+ * All give the same result to the last bit if no multiplication is joined with an addition
+ * (-ffp-contract=off, or ISO C, is what gcc needs for that; clang gets the pragma) and sums keep
+ * their order.
  */
 #ifndef PSPLAT_ISA_H
 #define PSPLAT_ISA_H

@@ -1,8 +1,8 @@
 /* light_map.h: the scene as a light sees it through a square, for maps of what a light meets.
  *
- * A point of light looks by perspective (Williams 1978, "Casting curved shadows on curved surfaces"): a
- * spotlight through one square as wide as its cone, wide spotlights and point lights through the six
- * faces of a cube. A view in parallel serves light that comes from infinity.
+ * A point of light looks by perspective (Williams 1978, "Casting curved shadows on curved
+ * surfaces"): a spotlight through one square as wide as its cone, wide spotlights and point lights
+ * through the six faces of a cube. A view in parallel serves light that comes from infinity.
  */
 #ifndef PSPLAT_LIGHT_MAP_H
 #define PSPLAT_LIGHT_MAP_H
@@ -10,8 +10,8 @@
 #include <psplat/math.h>
 #include <psplat/types.h>
 
-/* The cosine of a cone's half angle. A wider spotlight would have all of its pixels near the rim of one
- * perspective map. */
+/* The cosine of a cone's half angle. A wider spotlight would have all of its pixels near the rim of
+ * one perspective map. */
 #define PS_WIDEST_MAP_COSINE (1.0f / 3.0f)
 
 /* A square that is looked through. */
@@ -30,7 +30,8 @@ static inline uint32_t ps_light_view_count(const ps_light *light)
     return light->cos_cone < PS_WIDEST_MAP_COSINE ? 6 : 1;
 }
 
-/* View `face` of such a light: 0 looks along the light's axis, 1 to 5 are the other sides of the cube. */
+/* View `face` of such a light: 0 looks along the light's axis, 1 to 5 are the other sides of the
+ * cube. */
 static inline ps_light_view ps_light_view_of(const ps_light *light, uint32_t face)
 {
     ps_vec3 sides[3];
@@ -46,8 +47,8 @@ static inline ps_light_view ps_light_view_of(const ps_light *light, uint32_t fac
     };
 }
 
-/* The ray through the place (x, y) of the square, both 0..1. It starts at tnear = `offset`, since a light
- * may lie on a surface; see ps_pass.surface_offset. */
+/* The ray through the place (x, y) of the square, both 0..1. It starts at tnear = `offset`, since a
+ * light may lie on a surface; see ps_pass.surface_offset. */
 static inline ps_ray ps_light_view_ray(const ps_light_view *view, float x, float y, float offset)
 {
     ps_vec3 from = view->parallel ? view->origin : view->axis;

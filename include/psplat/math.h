@@ -7,8 +7,8 @@
 
 #define PS_PI 3.14159265358979323846f
 
-/* The smaller and the larger of two; `b` where they do not compare (NaN). Made for inner loops: what fmaxf
- * promises about NaN costs a call. */
+/* The smaller and the larger of two; `b` where they do not compare (NaN). Made for inner loops:
+ * what fmaxf promises about NaN costs a call. */
 static inline float ps_min(float a, float b)
 {
     return a < b ? a : b;
@@ -114,8 +114,8 @@ static inline ps_vec3 ps_cosine_direction(ps_vec3 n, float u1, float u2)
     return ps_normalize(ps_add_scaled(in_plane, height, n));
 }
 
-/* The ray from a surface point to the side of its normal; `offset` (ps_pass.surface_offset) keeps it
- * from meeting its own surface. */
+/* The ray from a surface point to the side of its normal; `offset` (ps_pass.surface_offset) keeps
+ * it from meeting its own surface. */
 static inline ps_ray ps_leave_surface(ps_vec3 position, ps_vec3 normal, ps_vec3 direction,
                                       float offset)
 {

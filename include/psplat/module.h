@@ -1,8 +1,9 @@
 /* module.h: what a plugin exports.
  *
  * A module is a shared object with one data symbol, `psplat_module_v1`, a ps_module. The loader
- * judges magic, version and layout before it calls any of the module's functions. A module holds one or
- * more descriptors; psplat's own modules hold one each: one strategy, one file, one shared object.
+ * judges magic, version and layout before it calls any of the module's functions. A module holds
+ * one or more descriptors; psplat's own modules hold one each: one strategy, one file, one shared
+ * object.
  *
  *     #include <psplat/plugin.h>
  *     struct state { double sharpness; };
@@ -16,9 +17,11 @@
  *
  * Versions. A psplat loads modules that were built for its own major version and for no later minor
  * one. Within a major version:
- *   - structs that begin with their size grow at their end alone. psplat takes a smaller one of a module's as if the
- *     members that it lacks were 0; a module finds at the front of psplat's what it knows of.
- *   - structs that cross in arrays (those of the fingerprint below, and what they hold) do not change.
+ *   - structs that begin with their size grow at their end alone. psplat takes a smaller one of a
+ *     module's as if the members that it lacks were 0; a module finds at the front of psplat's what
+ *     it knows of.
+ *   - structs that cross in arrays (those of the fingerprint below, and what they hold) do not
+ *     change.
  *   - no member changes its meaning, and none is taken away.
  */
 #ifndef PSPLAT_MODULE_H
@@ -46,8 +49,8 @@ typedef enum ps_kind {
     PS_KINDS = 9
 } ps_kind;
 
-/* A checksum of the sizes of what crosses in arrays; it differs where a compiler or a flag laid out the
- * structs otherwise. */
+/* A checksum of the sizes of what crosses in arrays; it differs where a compiler or a flag laid out
+ * the structs otherwise. */
 #define PS_LAYOUT_FINGERPRINT                                                                      \
     ((uint64_t)sizeof(void *) | (uint64_t)sizeof(ps_photon) << 8 |                                 \
      (uint64_t)sizeof(ps_hit) << 16 | (uint64_t)sizeof(ps_ray) << 24 |                             \
@@ -67,10 +70,11 @@ typedef struct ps_descriptor {
     uint64_t
         state_size; /* bytes of state that the core allocates, zeroed, and fills from `params` */
 
-    /* Checks what no table can, and prepares what follows from the parameters. Main thread, once,
-     * before any other callback and before the first pass: the host's ray queries, samples, lights,
-     * bounds, camera and memory are there, its tiles, photons, splats and progress not yet. The state is
-     * const afterwards, except to an injection's prepare and to an estimator. May be NULL. */
+    /* Checks what no table can, and prepares what follows from the parameters. Main thread,
+     * once, before any other callback and before the first pass: the host's ray queries,
+     * samples, lights, bounds, camera and memory are there, its tiles, photons, splats and
+     * progress not yet. The state is const afterwards, except to an injection's prepare and to
+     * an estimator. May be NULL. */
     ps_result (*init)(void *state, const ps_host *host);
 
     /* Frees what init took. Main thread, once, only after a successful init. May be NULL. */

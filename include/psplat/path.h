@@ -6,8 +6,8 @@
 #include <psplat/math.h>
 #include <stdbool.h>
 
-/* Mirrors and glass that a path may meet between two diffuse surfaces; between facing mirrors it would
- * run for ever. */
+/* Mirrors and glass that a path may meet between two diffuse surfaces; between facing mirrors it
+ * would run for ever. */
 #define PS_LONGEST_CHAIN 32
 
 /* An albedo near 1 would keep a path alive for ever. */
@@ -24,19 +24,21 @@ static inline int ps_russian_roulette(float probability, float number, ps_rgb *c
     return 1;
 }
 
-/* Ray cones (Amanatides 1984, "Ray tracing with cones"): a ray drawn with density p (1/sr) stands for a cone of solid angle 1 / (PS_CONES p).
- * More cones would look up textures texel by texel, fewer would mix light of different colours. */
+/* Ray cones (Amanatides 1984, "Ray tracing with cones"): a ray drawn with density p (1/sr) stands
+ * for a cone of solid angle 1 / (PS_CONES p). More cones would look up textures texel by texel,
+ * fewer would mix light of different colours. */
 #define PS_CONES 800.0f
 #define PS_WIDEST_CONE 0.125f
 
-/* For intersect_cones: the width of the cone of a direction drawn with density `pdf` (1/sr), over the distance. A pdf of 0, a mirror's, gives
- * 0: a ray without width. */
+/* For intersect_cones: the width of the cone of a direction drawn with density `pdf` (1/sr), over
+ * the distance. A pdf of 0, a mirror's, gives 0: a ray without width. */
 static inline float ps_cone_spread(float pdf)
 {
     return pdf > 0.0f ? ps_min(sqrtf(1.0f / (PS_CONES * pdf)), PS_WIDEST_CONE) : 0.0f;
 }
 
-/* A ps_gloss after one more surface, of that ps_hit.roughness, that has not scattered a path diffusely. */
+/* A ps_gloss after one more surface, of that ps_hit.roughness, that has not scattered a path
+ * diffusely. */
 static inline uint8_t ps_gloss_after(uint8_t before, float roughness)
 {
     bool is_rough = before != PS_SHARP_GLOSS && roughness >= PS_ROUGH_GLOSS;
@@ -46,8 +48,8 @@ static inline uint8_t ps_gloss_after(uint8_t before, float roughness)
 /* The spread of a diffuse bounce, at its typical density 1 / pi: sqrt(pi / PS_CONES). */
 #define PS_DIFFUSE_SPREAD 0.0627f
 
-/* Traces n rays, and moves those that meet something to the front, with their hits; returns how many.
- * kept[i] >= i becomes the place that number i came from. Any thread. */
+/* Traces n rays, and moves those that meet something to the front, with their hits; returns how
+ * many. kept[i] >= i becomes the place that number i came from. Any thread. */
 static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, ps_hit *hits,
                                    size_t *kept)
 {
@@ -63,8 +65,8 @@ static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, 
     return met;
 }
 
-/* For an injection whose photons lie where lights shine, in prepare: says, once a render, that there is light of
- * one bounce alone where more is asked for. */
+/* For an injection whose photons lie where lights shine, in prepare: says, once a render, that
+ * there is light of one bounce alone where more is asked for. */
 static inline void ps_warn_of_single_bounce(const ps_host *host, const ps_pass *pass,
                                             const char *warning)
 {

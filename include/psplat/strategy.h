@@ -11,8 +11,8 @@
  * results may depend only on the arguments; [main thread]: called once at a time. Arrays are
  * borrowed for the call. A function that can fail returns a ps_result, and tells why by host->fail.
  *
- * Each table begins with its own size, by which psplat knows which members a module was built with: a
- * member that it does not have counts as 0. "Optional": may be NULL.
+ * Each table begins with its own size, by which psplat knows which members a module was built with:
+ * a member that it does not have counts as 0. "Optional": may be NULL.
  */
 #ifndef PSPLAT_STRATEGY_H
 #define PSPLAT_STRATEGY_H
@@ -38,9 +38,9 @@ typedef struct ps_injection_vtable {
      * out the pixels (host->begin_splats). [worker] */
     ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
                       size_t n, const ps_photon_sink *sink);
-    /* Optional. Makes what emit needs in this pass and keeps it in the state, which no other callback
-     * uses meanwhile. Before path_count and emit, in each pass whose photons are asked for; passes may
-     * not depend on each other. [main thread] */
+    /* Optional. Makes what emit needs in this pass and keeps it in the state, which no other
+     * callback uses meanwhile. Before path_count and emit, in each pass whose photons are asked
+     * for; passes may not depend on each other. [main thread] */
     ps_result (*prepare)(void *state, const ps_host *host, const ps_pass *pass);
 } ps_injection_vtable;
 
@@ -65,8 +65,8 @@ typedef struct ps_strata {
     size_t entry_count;
     size_t *starts; /* room for one more than there are photons */
     size_t count;
-    /* How the photons of a stratum merge: into as many as `per_stratum` (0: as 1) where there are as many,
-     * and no more than `most` (0: any number) into one. */
+    /* How the photons of a stratum merge: into as many as `per_stratum` (0: as 1) where there are
+     * as many, and no more than `most` (0: any number) into one. */
     uint64_t per_stratum, most;
 } ps_strata;
 
@@ -82,9 +82,9 @@ typedef struct ps_stratification_vtable {
      * `normal_angle` are psplat's. [main thread] */
     ps_result (*stratify)(const void *state, const ps_host *host, const ps_pass *pass,
                           ps_photon *photons, size_t n, ps_strata *strata);
-    /* Optional; without, there are no pictures of strata. The numbers of the strata that `count` points
-     * lie in, given the strata that stratify made of a pass; PS_NO_STRATUM where nothing would merge.
-     * [main thread] */
+    /* Optional; without, there are no pictures of strata. The numbers of the strata that `count`
+     * points lie in, given the strata that stratify made of a pass; PS_NO_STRATUM where nothing
+     * would merge. [main thread] */
     ps_result (*find_strata)(const void *state, const ps_host *host, const ps_strata *strata,
                              const ps_vec3 *points, size_t count, uint64_t *numbers);
 } ps_stratification_vtable;
@@ -92,20 +92,20 @@ typedef struct ps_stratification_vtable {
 /* --- visibility ------------------------------------------------------------------------------ */
 
 /* Which rays of a bundle pass. A table without functions lights everything inside of a splat's
- * footprint. With depth maps, psplat adds the parameters `resolution` and `bias`; the parameters of the
- * footprint are psplat's for all. */
+ * footprint. With depth maps, psplat adds the parameters `resolution` and `bias`; the parameters of
+ * the footprint are psplat's for all. */
 typedef struct ps_visibility_vtable {
     uint32_t size;
     uint32_t reserved;
-    /* Optional. Depth maps of n bundles: texel (i, j), u along i, at depths[(b * resolution + j) * resolution
-     * + i]: the depth t at which its ray ends, INFINITY where it meets nothing. The texel's centre is
-     * ps_texel_centre. 1 <= resolution <= PS_MOST_TEXELS. [worker] */
+    /* Optional. Depth maps of n bundles: texel (i, j), u along i, at depths[(b * resolution + j) *
+     * resolution + i]: the depth t at which its ray ends, INFINITY where it meets nothing. The
+     * texel's centre is ps_texel_centre. 1 <= resolution <= PS_MOST_TEXELS. [worker] */
     void (*depth_maps)(const void *state, const ps_host *host, const ps_bundle *bundles, size_t n,
                        uint32_t resolution, float *depths);
-    /* Optional, instead of depth maps. Whether the bundle lights each of n points inside of the splat's
-     * footprint that face the light; lit[i] becomes 1 or 0. The points were moved off their surfaces like
-     * origins of rays that leave them, so nothing at the point itself is in the way. Points before the
-     * start plane are lit. [worker] */
+    /* Optional, instead of depth maps. Whether the bundle lights each of n points inside of the
+     * splat's footprint that face the light; lit[i] becomes 1 or 0. The points were moved off their
+     * surfaces like origins of rays that leave them, so nothing at the point itself is in the way.
+     * Points before the start plane are lit. [worker] */
     void (*visible)(const void *state, const ps_host *host, const ps_bundle *bundle,
                     const ps_vec3 *points, size_t n, uint8_t *lit);
 } ps_visibility_vtable;
@@ -126,27 +126,30 @@ typedef struct ps_filter_vtable {
 
 #define PS_ESTIMATOR_SHARES_PLACES 1u /* see ps_pass.shares_places */
 #define PS_ESTIMATOR_RADIANCE 2u      /* ps_tile.radiance_r, radiance_g and radiance_b are there */
-/* Since 1.7: what a tile gets is the same where the others are not there; so that a part of the picture may be rendered
- * alone. Without, --crop is refused. What depends on all of the picture is had by for_each_picture_tile and
- * tile_surfaces. */
+/* Since 1.7: what a tile gets is the same where the others are not there; so that a part of the
+ * picture may be rendered alone. Without, --crop is refused. What depends on all of the picture is
+ * had by for_each_picture_tile and tile_surfaces. */
 #define PS_ESTIMATOR_CROPS 4u
-/* Since 1.8: it splats onto the picture in every scene, so that there has to be memory for what splats light. */
+/* Since 1.8: it splats onto the picture in every scene, so that there has to be memory for what
+ * splats light. */
 #define PS_ESTIMATOR_SPLATS 8u
 
 typedef struct ps_estimator_vtable {
     uint32_t size;
     uint32_t flags; /* PS_ESTIMATOR_... */
-    /* Adds the pass's indirect light and its weight to the tiles. The result must depend on this pass alone: other passes may be
-     * rendered on other machines, or in another order. What is kept in the state lasts through the render. [main thread] */
+    /* Adds the pass's indirect light and its weight to the tiles. The result must depend on this
+     * pass alone: other passes may be rendered on other machines, or in another order. What is kept
+     * in the state lasts through the render. [main thread] */
     ps_result (*accumulate)(void *state, const ps_host *host, const ps_pass *pass);
     /* Optional. Once, before the first pass; `pass` describes it. [main thread] */
     ps_result (*begin)(void *state, const ps_host *host, const ps_pass *pass);
-    /* Optional. After each pass that was accumulated; the tiles hold its light, short-range light and all.
-     * [main thread] */
+    /* Optional. After each pass that was accumulated; the tiles hold its light, short-range light
+     * and all. [main thread] */
     ps_result (*end_pass)(void *state, const ps_host *host, const ps_pass *pass);
     /* Optional. Once, after the last pass, if begin was called and succeeded. [main thread] */
     void (*end)(void *state, const ps_host *host);
-    /* Since 1.8: bytes that accumulate() allocates at a time, for each pixel; see ps_denoiser_vtable. */
+    /* Since 1.8: bytes that accumulate() allocates at a time, for each pixel; see
+     * ps_denoiser_vtable. */
     uint64_t pixel_bytes;
 } ps_estimator_vtable;
 
@@ -182,35 +185,41 @@ typedef struct ps_image_view {
     uint32_t width, height;
     uint32_t passes;
     float *r, *g, *b; /* indirect radiance, or direct (PS_DENOISER_DIRECT), to change in place */
-    /* radiance = albedo / pi * irradiance: the diffuse reflectance times the throughput of mirrors and glass before it. Where the path
-     * met a glossy or partly mirroring surface: that surface's reflectance over all lobes, and its normal, position and
-     * depth, since what it mirrors differs from sample to sample. */
+    /* radiance = albedo / pi * irradiance: the diffuse reflectance times the throughput of mirrors
+     * and glass before it. Where the path met a glossy or partly mirroring surface: that surface's
+     * reflectance over all lobes, and its normal, position and depth, since what it mirrors differs
+     * from sample to sample. */
     const float *albedo_r, *albedo_g, *albedo_b;
     const float *normal_x, *normal_y, *normal_z;
     const float *position_x, *position_y, *position_z;
     const float *depth;  /* INFINITY where nothing is seen */
     const float *weight; /* sum over the passes of what the estimator weighed the light with */
-    const float *
-        coverage; /* passes in which a surface was seen, at the end of the way by mirrors and glass */
-    /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT where
-     * nothing is seen; and the indirect radiance of the even and of the odd passes alone, whose
-     * difference tells the noise: NULL, too, where there is one pass. Of direct light they are by halves of the shadow
-     * rays of each pass, or by even and odd passes; see PS_DENOISER_DIRECT. */
+    /* Passes in which a surface was seen, at the end of the way by mirrors and glass. */
+    const float *coverage;
+    /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT
+     * where nothing is seen; and the indirect radiance of the even and of the odd passes alone,
+     * whose difference tells the noise: NULL, too, where there is one pass. Of direct light they
+     * are by halves of the shadow rays of each pass, or by even and odd passes; see
+     * PS_DENOISER_DIRECT. */
     const uint32_t *object, *material;
     const float *even_r, *even_g, *even_b, *odd_r, *odd_g, *odd_b;
-    /* Since 1.3: the share of the albedo that is not diffuse, but gloss that mirrors by chance. NULL: none anywhere. */
+    /* Since 1.3: the share of the albedo that is not diffuse, but gloss that mirrors by chance.
+     * NULL: none anywhere. */
     const float *gloss;
-    /* Since 1.3: to be filled in where it is not NULL, which takes PS_DENOISER_ERROR: how far the mean of a pixel's three
-     * channels is likely to be off, noise and blur together, in W/(m^2 sr). It is 0 before. */
+    /* Since 1.3: to be filled in where it is not NULL, which takes PS_DENOISER_ERROR: how far the
+     * mean of a pixel's three channels is likely to be off, noise and blur together, in W/(m^2 sr).
+     * It is 0 before. */
     float *error;
     float odd_share; /* since 1.4: of the samples, how many are in odd_r, _g, _b: 0..1 */
-    /* Since 1.13: camera samples of a pixel at an edge, in each pass. Where there are several, their indirect light is the
-     * mean of what the pixels around, up to two away, found on the same surfaces: its noise is not a pixel's own. */
+    /* Since 1.13: camera samples of a pixel at an edge, in each pass. Where there are several,
+     * their indirect light is the mean of what the pixels around, up to two away, found on the same
+     * surfaces: its noise is not a pixel's own. */
     uint32_t edge_samples;
 } ps_image_view;
 
-/* Whether a pixel has light to denoise: false where nothing is seen, or a mirror alone with nothing behind. Of such a mirror
- * albedo, normal, position and depth are told, but what it shows has no noise. */
+/* Whether a pixel has light to denoise: false where nothing is seen, or a mirror alone with nothing
+ * behind. Of such a mirror albedo, normal, position and depth are told, but what it shows has no
+ * noise. */
 static inline int ps_image_has_surface(const ps_image_view *image, size_t pixel)
 {
     return image->depth[pixel] < INFINITY &&
@@ -219,10 +228,11 @@ static inline int ps_image_has_surface(const ps_image_view *image, size_t pixel)
 
 #define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */
 #define PS_DENOISER_HALVES 2u /* ps_image_view.even_r to odd_b are there */
-/* Since 1.1. filter() is called a second time, for the direct light that surfaces reflect, with halves of it: of the
- * shadow rays of each pass, or of the passes where there is but one ray; and for all direct light that gloss mirrors,
- * with halves of a pixel's camera samples, or of the passes. Not where neither has noise, nor where the scene asks
- * for one ray and one pass, or for the discontinuity buffer. */
+/* Since 1.1. filter() is called a second time, for the direct light that surfaces reflect, with
+ * halves of it: of the shadow rays of each pass, or of the passes where there is but one ray; and
+ * for all direct light that gloss mirrors, with halves of a pixel's camera samples, or of the
+ * passes. Not where neither has noise, nor where the scene asks for one ray and one pass, or for
+ * the discontinuity buffer. */
 #define PS_DENOISER_DIRECT 4u
 
 #define PS_DENOISER_ERROR 8u /* since 1.3: filter() fills in ps_image_view.error */
@@ -230,27 +240,30 @@ static inline int ps_image_has_surface(const ps_image_view *image, size_t pixel)
 typedef struct ps_denoiser_vtable {
     uint32_t size;
     uint32_t flags; /* PS_DENOISER_... */
-    /* Optional; without, the picture stays as it is. Filters in place. `psplat resolve` calls it without a scene: of the
-     * services, camera and project know what they did, rays meet nothing, and there are no lights. [main thread] */
+    /* Optional; without, the picture stays as it is. Filters in place. `psplat resolve` calls it
+     * without a scene: of the services, camera and project know what they did, rays meet nothing,
+     * and there are no lights. [main thread] */
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
-    /* Since 1.8: bytes that filter() allocates at a time, for each pixel. Where they are not there, the render is refused
-     * before it begins. */
+    /* Since 1.8: bytes that filter() allocates at a time, for each pixel. Where they are not there,
+     * the render is refused before it begins. */
     uint64_t pixel_bytes;
-    /* Since 1.11. Optional, beside filter(): filters several images of one picture, at most PS_DENOISER_IMAGES, which differ
-     * in their light, its halves and `error` alone. Results are those of filter() for each. [main thread] */
+    /* Since 1.11. Optional, beside filter(): filters several images of one picture, at most
+     * PS_DENOISER_IMAGES, which differ in their light, its halves and `error` alone. Results are
+     * those of filter() for each. [main thread] */
     ps_result (*filter_all)(const void *state, const ps_host *host, const ps_image_view *images,
                             uint32_t count);
-    uint64_t
-        image_bytes; /* since 1.11: that it allocates for each pixel of each image beside the first */
+    /* Since 1.11: that it allocates for each pixel of each image beside the first. */
+    uint64_t image_bytes;
 } ps_denoiser_vtable;
 
 #define PS_DENOISER_IMAGES 3u
 
 /* --- bloom and tonemap ----------------------------------------------------------------------- */
 
-/* Since 1.5. A copy of the picture on its way to a display, row-major, to change in place: linear, with the primaries of
- * Rec. 709. Radiance times 2 to the power of the exposure, so that 1 is the brightest that the display shows; not
- * negative, and at most 1e15. No layer of radiance is made of it. */
+/* Since 1.5. A copy of the picture on its way to a display, row-major, to change in place: linear,
+ * with the primaries of Rec. 709. Radiance times 2 to the power of the exposure, so that 1 is the
+ * brightest that the display shows; not negative, and at most 1e15. No layer of radiance is made of
+ * it. */
 typedef struct ps_display_view {
     uint32_t size;
     uint32_t width, height;
@@ -258,12 +271,14 @@ typedef struct ps_display_view {
     float *r, *g, *b;
 } ps_display_view;
 
-/* `psplat view` calls these tables without a scene: rays meet nothing, there are no lights, and the camera is none. */
+/* `psplat view` calls these tables without a scene: rays meet nothing, there are no lights, and the
+ * camera is none. */
 
 typedef struct ps_bloom_vtable {
     uint32_t size;
     uint32_t reserved;
-    /* Optional; without, the picture stays as it is. Spreads light, before the tone map; makes none. [main thread] */
+    /* Optional; without, the picture stays as it is. Spreads light, before the tone map; makes
+     * none. [main thread] */
     ps_result (*spread)(const void *state, const ps_host *host, const ps_display_view *picture);
 } ps_bloom_vtable;
 
@@ -271,8 +286,8 @@ typedef struct ps_bloom_vtable {
 typedef struct ps_tonemap_vtable {
     uint32_t size;
     uint32_t reserved;
-    /* Optional; without, values stay as they are. Brings them to 0..1; psplat takes what is above as 1, and applies the
-     * sRGB transfer function of PNG pictures. [main thread] */
+    /* Optional; without, values stay as they are. Brings them to 0..1; psplat takes what is above
+     * as 1, and applies the sRGB transfer function of PNG pictures. [main thread] */
     ps_result (*map)(const void *state, const ps_host *host, const ps_display_view *picture);
 } ps_tonemap_vtable;
 

@@ -46,9 +46,10 @@ static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
 /* Of two normals of one surface, one of them bent, the least cosine: 75 degrees. */
 #define PS_OWN_SURFACE_COSINE 0.25f
 
-/* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own surface:
- * nothing shines on a point of its plane. A point in a crease lies in the planes of two surfaces; hits of the other one stay, and their
- * normals tell them. Ray i left point targets[i]. `offset`: that of the rays (ps_pass.surface_offset). */
+/* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own
+ * surface: nothing shines on a point of its plane. A point in a crease lies in the planes of two
+ * surfaces; hits of the other one stay, and their normals tell them. Ray i left point targets[i].
+ * `offset`: that of the rays (ps_pass.surface_offset). */
 static inline void ps_forget_own_surface(const ps_points *points, const uint32_t *targets, size_t n,
                                          float offset, ps_hit *hits)
 {
@@ -61,14 +62,15 @@ static inline void ps_forget_own_surface(const ps_points *points, const uint32_t
     }
 }
 
-/* Where a pixel's own block of a sample sequence begins: 2^24 aligned indices, so that its first 2^k
- * samples are stratified. */
+/* Where a pixel's own block of a sample sequence begins: 2^24 aligned indices, so that its first
+ * 2^k samples are stratified. */
 static inline uint64_t ps_sample_block(uint64_t tile, uint32_t lane)
 {
     return (tile * PS_TILE_PIXELS + lane) << 24;
 }
 
-/* The place of a lane along a Z curve through its tile (Morton 1966): aligned squares of pixels are runs of it. */
+/* The place of a lane along a Z curve through its tile (Morton 1966): aligned squares of pixels are
+ * runs of it. */
 static inline uint32_t ps_lane_along_curve(uint32_t lane)
 {
     uint32_t x = lane % PS_TILE_SIZE, y = lane / PS_TILE_SIZE, place = 0;
@@ -77,11 +79,12 @@ static inline uint32_t ps_lane_along_curve(uint32_t lane)
     return place;
 }
 
-/* The first of a pixel's `count` samples of a pass. Of the first pass those of a tile are shared out along a Z curve: the
- * samples of any aligned square of pixels are a run of the sequence, and stratified as a whole, best where count is a
- * power of two (Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
- * ordering of pixels"). Further passes take a run of each pixel's own, so that its samples of many passes are stratified
- * instead. */
+/* The first of a pixel's `count` samples of a pass. Of the first pass those of a tile are shared
+ * out along a Z curve: the samples of any aligned square of pixels are a run of the sequence,
+ * and stratified as a whole, best where count is a power of two (Ahmed and Wonka 2020,
+ * "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of
+ * pixels"). Further passes take a run of each pixel's own, so that its samples of many passes
+ * are stratified instead. */
 static inline uint64_t ps_tile_sample(uint64_t tile, uint32_t lane, uint32_t pass, uint64_t count)
 {
     if (pass == 0)

@@ -37,8 +37,8 @@ typedef struct ps_ray {
 #define PS_HIT_OWN 0xff000000u /* bits that are psplat's own */
 
 /* Where a ray met a surface. `distance` is INFINITY, and `object` PS_NO_OBJECT, where it met none;
- * the other members are then unset. Both normals have length 1 and lie on the side that the ray came
- * from. */
+ * the other members are then unset. Both normals have length 1 and lie on the side that the ray
+ * came from. */
 typedef struct ps_hit {
     ps_vec3 position;
     float distance;
@@ -93,12 +93,13 @@ typedef enum ps_gloss {
     PS_ONLY_ROUGH_GLOSS = 2 /* since 1.15 */
 } ps_gloss;
 
-/* Roughness (ps_hit.roughness) from which on paths from the camera find what gloss reflects of lamps. */
+/* Roughness (ps_hit.roughness) from which on paths from the camera find what gloss reflects of
+ * lamps. */
 #define PS_ROUGH_GLOSS 0.2f
 
-/* Light that leaves a surface: an indirect light source. It stands for a bundled light ray (Hoet 2014,
- * section 3.2) that carries `power` from `position` along `direction`. All strategies exchange
- * these. */
+/* Light that leaves a surface: an indirect light source. It stands for a bundled light ray (Hoet
+ * 2014, section 3.2) that carries `power` from `position` along `direction`. All strategies
+ * exchange these. */
 typedef struct ps_photon {
     ps_vec3 position;
     ps_vec3 normal; /* of the surface that it leaves */
@@ -112,9 +113,9 @@ typedef struct ps_photon {
     uint64_t path;    /* number of the light path, counted over all passes; keys random streams */
 } ps_photon;
 
-/* A straight border across a bundle, beyond which no ray starts: there a wall stands on the surface that
- * the bundle leaves. Beyond it lie the rays with u * normal_u + v * normal_v > distance, all three in
- * radii of the bundle. */
+/* A straight border across a bundle, beyond which no ray starts: there a wall stands on the surface
+ * that the bundle leaves. Beyond it lie the rays with u * normal_u + v * normal_v > distance, all
+ * three in radii of the bundle. */
 typedef struct ps_boundary {
     float normal_u, normal_v; /* length 1 */
     float distance;
@@ -122,14 +123,16 @@ typedef struct ps_boundary {
 
 #define PS_MOST_BOUNDARIES 2
 
-/* The parallel rays of a photon that was carried to the surface that it lights. A ray is named by its
- * place (u, v) across the bundle, and a point on it by its depth t along axis_w, all in scene units from
- * the centre: centre + u axis_u + v axis_v + t axis_w. |u| and |v| are at most the radius. */
+/* The parallel rays of a photon that was carried to the surface that it lights. A ray is named by
+ * its place (u, v) across the bundle, and a point on it by its depth t along axis_w, all in scene
+ * units from the centre: centre + u axis_u + v axis_v + t axis_w. |u| and |v| are at most the
+ * radius. */
 typedef struct ps_bundle {
     ps_vec3 centre;                 /* on the photon's own ray, where it meets its first surface */
     float radius;                   /* > 0 */
     ps_vec3 axis_u, axis_v, axis_w; /* orthonormal; axis_w is the direction of the light */
-    /* Depth at which rays start, at the centre, and its change along u and v (a tilted start plane). */
+    /* Depth at which rays start, at the centre, and its change along u and v (a tilted start
+     * plane). */
     float start_depth, start_slope_u, start_slope_v;
     float far_depth; /* nothing past it is lit; may be INFINITY */
     uint32_t boundary_count;
@@ -144,8 +147,9 @@ typedef enum ps_light_kind {
     PS_LIGHT_SKY = 3      /* they come from infinity, out of all directions */
 } ps_light_kind;
 
-/* Groups of lights, bits for ps_host.direct_radiance_of: those with shadows so soft that their irradiance changes slowly from
- * place to place, which are skies without a sun in their picture; and all others. */
+/* Groups of lights, bits for ps_host.direct_radiance_of: those with shadows so soft that their
+ * irradiance changes slowly from place to place, which are skies without a sun in their picture;
+ * and all others. */
 typedef enum ps_light_group {
     PS_LIGHTS_SOFT = 1,
     PS_LIGHTS_OTHERS = 2,
@@ -180,10 +184,11 @@ typedef struct ps_light_sample {
 
 #define PS_NO_LIGHT UINT32_MAX
 
-/* How likely shadow rays and light paths go the same way between a point of a light and a place. `direct`: the density by
- * which host->sample_light, at the place, draws the direction to the point, by solid angle, the choice of the light
- * included; 0: a point, or a sun without an angle. `arrival`: the density by which host->emit_points sends a ray from the
- * point through an area across it at the place (1/m^2), over that by which host->sample_light draws the point there. */
+/* How likely shadow rays and light paths go the same way between a point of a light and a place.
+ * `direct`: the density by which host->sample_light, at the place, draws the direction to the
+ * point, by solid angle, the choice of the light included; 0: a point, or a sun without an angle.
+ * `arrival`: the density by which host->emit_points sends a ray from the point through an area
+ * across it at the place (1/m^2), over that by which host->sample_light draws the point there. */
 typedef struct ps_light_density {
     float direct, arrival;
 } ps_light_density;
@@ -223,8 +228,10 @@ typedef struct ps_camera {
 #define PS_TILE_PIXELS 256
 
 /* One 16x16 tile of the G-buffer and of the pass's accumulators, structure of arrays, 64-byte
- * aligned; it may grow at its end. Lane i is the pixel in column i % PS_TILE_SIZE and row i / PS_TILE_SIZE of the tile. Lanes that are no pixel of the picture, or whose pixel sees nothing, have depth
- * INFINITY, object PS_NO_OBJECT, a normal of 0 and a position far outside of any scene. */
+ * aligned; it may grow at its end. Lane i is the pixel in column i % PS_TILE_SIZE and row i /
+ * PS_TILE_SIZE of the tile. Lanes that are no pixel of the picture, or whose pixel sees nothing,
+ * have depth INFINITY, object PS_NO_OBJECT, a normal of 0 and a position far outside of any
+ * scene. */
 typedef struct ps_tile {
     _Alignas(64) float position_x[PS_TILE_PIXELS], position_y[PS_TILE_PIXELS],
         position_z[PS_TILE_PIXELS];
@@ -239,8 +246,9 @@ typedef struct ps_tile {
      * where the pixel learned nothing. */
     float irradiance_r[PS_TILE_PIXELS], irradiance_g[PS_TILE_PIXELS], irradiance_b[PS_TILE_PIXELS];
     float weight[PS_TILE_PIXELS];
-    /* PS_TILE_PIXELS each: indirect radiance that leaves the surface towards the camera, W/(m^2 sr), besides
-     * albedo / pi * irradiance. NULL where the estimator's table does not ask for it. */
+    /* PS_TILE_PIXELS each: indirect radiance that leaves the surface towards the camera, W/(m^2
+     * sr), besides albedo / pi * irradiance. NULL where the estimator's table does not ask for
+     * it. */
     float *radiance_r, *radiance_g, *radiance_b;
 } ps_tile;
 

@@ -1,4 +1,5 @@
-/* expand.h: puts values in the place of formulas, and items in the place of loops and conditions. */
+/* expand.h: puts values in the place of formulas, and items in the place of loops and
+ * conditions. */
 #ifndef PARSER_LANGUAGE_EXPAND_H
 #define PARSER_LANGUAGE_EXPAND_H
 

@@ -132,7 +132,8 @@ static void fail(struct inclusion *inclusion, const struct node *at, const char 
     inclusion->failed = true;
 }
 
-/* At the place that includes it: a file that is no scene may hold secrets, and no line of it is shown. */
+/* At the place that includes it: a file that is no scene may hold secrets, and no line of it is
+ * shown. */
 static void fail_no_scene(struct inclusion *inclusion, const struct node *at, const char *name)
 {
     fail(inclusion, at, "can't include '%s': it is no scene, since it has no key 'psd'", name);
@@ -141,7 +142,8 @@ static void fail_no_scene(struct inclusion *inclusion, const struct node *at, co
 static void include_all(struct inclusion *inclusion, const struct source *by,
                         const struct node *root);
 
-/* `at` is the place that includes the file; NULL for the main file, which the table of its keys checks. */
+/* `at` is the place that includes the file; NULL for the main file, which the table of its keys
+ * checks. */
 static void take_file(struct inclusion *inclusion, struct source *source, const struct node *at,
                       const char *text, size_t length)
 {

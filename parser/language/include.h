@@ -26,8 +26,9 @@ struct main_text {
     uint64_t device, serial; /* as in file.h */
 };
 
-/* A file is read once, whoever includes it. The tree may be looked at where PS_OK is returned, though errors may have been
- * reported; else PS_ERROR_INVALID or PS_ERROR_MEMORY (which is not reported). */
+/* A file is read once, whoever includes it. The tree may be looked at where PS_OK is returned,
+ * though errors may have been reported; else PS_ERROR_INVALID or PS_ERROR_MEMORY (which is not
+ * reported). */
 ps_result include_read(struct reader *reader, const struct psd_files *files, struct budget *budget,
                        const struct main_text *main, const struct node **root);
 

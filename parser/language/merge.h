@@ -13,8 +13,8 @@ struct merge {
 
 /* Adds the tree of a file, a map, to those before it. Lists go together, and so do maps from names
  * of the user's choice, in which a name that is there twice is an error. Of maps that are sections
- * (image, render), a key of the later file goes before the same one of an earlier, and of camera the
- * whole section. */
+ * (image, render), a key of the later file goes before the same one of an earlier, and of camera
+ * the whole section. */
 void merge_add(struct reader *reader, struct merge *merge, const struct node *root);
 
 #endif

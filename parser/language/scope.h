@@ -1,4 +1,5 @@
-/* scope.h: the names that the formulas of a scene use: parameters, definitions, indices of loops. */
+/* scope.h: the names that the formulas of a scene use: parameters, definitions, indices of
+ * loops. */
 #ifndef PARSER_LANGUAGE_SCOPE_H
 #define PARSER_LANGUAGE_SCOPE_H
 

@@ -63,8 +63,8 @@ struct schema_row {
     size_t fewest, most; /* of lists */
     const char *domain;  /* of SCHEMA_OTHER: what the value may be */
 
-    /* Rows of a section with the same choice, not 0, exclude each other, but for those with the same
-     * alternative. One of them must be given where the choice is demanded. */
+    /* Rows of a section with the same choice, not 0, exclude each other, but for those with the
+     * same alternative. One of them must be given where the choice is demanded. */
     int choice, alternative;
     bool demanded;
 };

@@ -1,5 +1,5 @@
-/* schema_json.c: see schema_json.h. One definition for each section, each family of several sections,
- * and what many values have in common.
+/* schema_json.c: see schema_json.h. One definition for each section, each family of several
+ * sections, and what many values have in common.
  */
 #include "parser/schema/schema_json.h"
 

@@ -1,4 +1,5 @@
-/* check.h: parts of the checks that no table can say: how the values of one section must fit together.
+/* check.h: parts of the checks that no table can say: how the values of one section must fit
+ * together.
  *
  * Each section's reader has its own, for a map that was filled without errors.
  */

@@ -1,4 +1,5 @@
-/* group.c: objects by name, and their instances. A group is read when the first instance, or its turn, comes. */
+/* group.c: objects by name, and their instances. A group is read when the first instance, or its
+ * turn, comes. */
 #include "parser/sections/object.h"
 
 #include "parser/sections/fill.h"

@@ -123,8 +123,8 @@ static void apply_order(struct reader *reader, const size_t *order, size_t count
     free(places);
 }
 
-/* Orders the description's materials so that components come before what is mixed from them; others keep their
- * order. Reports mixes that contain themselves. */
+/* Orders the description's materials so that components come before what is mixed from them; others
+ * keep their order. Reports mixes that contain themselves. */
 static void order_mixes(struct reader *reader)
 {
     size_t count = reader->description->material_count;

@@ -49,7 +49,8 @@ void groups_read(struct reader *reader, const struct node *root);
 void group_instance(struct reader *reader, const struct item *item, const struct object_keys *keys,
                     const struct object_context *context);
 
-/* --- mesh files as objects --------------------------------------------------------------------- */
+/* --- mesh files as objects
+ * --------------------------------------------------------------------- */
 
 /* Reads the file that the keys name, and adds what is used of it to the description. */
 void object_mesh_read(struct reader *reader, const struct item *item,
@@ -70,8 +71,8 @@ struct fragment {
     bool keep_materials;        /* those that nothing replaces */
 };
 
-/* Appends all to the description, objects to the context's list. Returns how many objects had no material
- * and got the plain one (import.h). Running out of memory is noted. */
+/* Appends all to the description, objects to the context's list. Returns how many objects had no
+ * material and got the plain one (import.h). Running out of memory is noted. */
 size_t fragment_append(struct reader *reader, const struct node *at,
                        const struct fragment *fragment, const struct object_context *context);
 

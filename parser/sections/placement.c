@@ -1,7 +1,7 @@
 /* placement.c: from the keys of transforms to an affine map.
  *
- * A map counts as singular where the volume that it makes of a cube is less than a millionth of what
- * the lengths of the edges would allow: singular matrices become regular by rounding.
+ * A map counts as singular where the volume that it makes of a cube is less than a millionth of
+ * what the lengths of the edges would allow: singular matrices become regular by rounding.
  */
 #include "parser/sections/sections.h"
 

@@ -58,8 +58,8 @@ static bool has_light(const struct scene_description *description)
     return description->light_count > 0;
 }
 
-/* A file without lights is legal, and its picture black. Where there are errors, a light may be what
- * was wrong. */
+/* A file without lights is legal, and its picture black. Where there are errors, a light may be
+ * what was wrong. */
 static void warn_dark(const struct reader *reader, const struct node *root)
 {
     const struct item *lights = node_find(root, "lights");

@@ -9,12 +9,14 @@
 #include "parser/sections/reader.h"
 #include "parser/sections/value.h"
 
-/* --- the whole file ---------------------------------------------------------------------------- */
+/* --- the whole file
+ * ---------------------------------------------------------------------------- */
 
 /* Fills the reader's description from the root of the tree, reporting what is wrong. */
 void scene_read(struct reader *reader, const struct node *root);
 
-/* --- cameras ----------------------------------------------------------------------------------- */
+/* --- cameras
+ * ----------------------------------------------------------------------------------- */
 
 /* Adds `camera` and `cameras` to the description. */
 void cameras_read(struct reader *reader, const struct node *root);
@@ -25,17 +27,20 @@ struct camera_description *camera_add(struct reader *reader);
 /* Whether the description has a camera of that name. */
 bool camera_exists(const struct reader *reader, const char *name);
 
-/* --- lights ------------------------------------------------------------------------------------ */
+/* --- lights
+ * ------------------------------------------------------------------------------------ */
 
 /* Adds the lights to the description. */
 void lights_read(struct reader *reader, const struct node *root);
 
-/* --- materials --------------------------------------------------------------------------------- */
+/* --- materials
+ * --------------------------------------------------------------------------------- */
 
 /* Adds the materials to the description, and their names to the reader. */
 void materials_read(struct reader *reader, const struct node *root);
 
-/* --- colours, or numbers, that may vary over a surface ----------------------------------------- */
+/* --- colours, or numbers, that may vary over a surface
+ * ----------------------------------------- */
 
 /* A pigment of one colour, whatever it is. */
 struct pigment_description pigment_of(ps_rgb color);
@@ -45,13 +50,15 @@ struct pigment_description pigment_of(ps_rgb color);
 bool pigment_read(struct reader *reader, struct subject subject, const struct schema_row *row,
                   const struct node *node, void *state);
 
-/* --- pictures ---------------------------------------------------------------------------------- */
+/* --- pictures
+ * ---------------------------------------------------------------------------------- */
 
 /* Adds a texture to the description, once for each way in which a file is used. Returns its index,
  * or NO_INDEX where memory ran out, which is noted. */
 size_t texture_add(struct reader *reader, const struct texture_keys *keys);
 
-/* --- transforms -------------------------------------------------------------------------------- */
+/* --- transforms
+ * -------------------------------------------------------------------------------- */
 
 /* Makes of what was filled from the map, whose key is `at`, a map that has an inverse; false where
  * something was reported. */
@@ -61,14 +68,16 @@ bool placement_read(struct reader *reader, const struct node *at, const struct n
 /* Whether the map has an inverse, of numbers that floats can hold. */
 bool placement_is_regular(const struct affine *map);
 
-/* --- the plugins that `render` names, with their parameters as text ---------------------------- */
+/* --- the plugins that `render` names, with their parameters as text
+ * ---------------------------- */
 
 /* Reads `NAME` or `{NAME: {PARAMETER: VALUE, ...}}` into a zeroed choice; false where something was
  * reported. The plugin's own table checks the parameters later. */
 bool strategy_read(struct reader *reader, struct subject subject, const struct node *node,
                    struct strategy_choice *choice);
 
-/* --- what the file names to refer to it from elsewhere: materials and groups ------------------- */
+/* --- what the file names to refer to it from elsewhere: materials and groups
+ * ------------------- */
 
 /* Makes index `index` known by the name; a name that is known gets the new index. */
 void reference_put(struct reader *reader, struct names *names, const char *name, size_t index);

@@ -1,7 +1,8 @@
 /* strategy.c: the plugins that `render` names, with their parameters.
  *
- * Values stay text, because only the plugin knows what they mean and the parser loads no plugins; but
- * arithmetic is done here, as it is the scene file's. Scenes are passed around, so a path to a plugin is refused here, before anything can load it.
+ * Values stay text, because only the plugin knows what they mean and the parser loads no plugins;
+ * but arithmetic is done here, as it is the scene file's. Scenes are passed around, so a path to a
+ * plugin is refused here, before anything can load it.
  */
 #include "parser/sections/sections.h"
 

@@ -16,7 +16,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Errors, and warnings, past this many are counted but not kept, where no other number is asked for. */
+/* Errors, and warnings, past this many are counted but not kept, where no other number is asked
+ * for. */
 #define DIAGNOSTICS_KEPT 20
 
 enum severity { SEVERITY_WARNING, SEVERITY_ERROR };
@@ -55,22 +56,24 @@ size_t diagnostics_warning_count(const struct diagnostics *sink);
 /* Whether further errors would only be counted, so that effort on their wording is wasted. */
 bool diagnostics_is_full(const struct diagnostics *sink);
 
-/* Calls back for each, in the order of diagnostics_print, with what that prints of it: lines, without the last one's
- * end. Where it has no file, origin->file is NULL and the text the message alone. Both are there until the call
- * returns. */
+/* Calls back for each, in the order of diagnostics_print, with what that prints of it: lines,
+ * without the last one's end. Where it has no file, origin->file is NULL and the text the message
+ * alone. Both are there until the call returns. */
 typedef void (*diagnostics_visit)(void *user, enum severity severity, const struct origin *origin,
                                   const char *text);
 void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, void *user);
 
-/* "N errors", and how many of them were kept where that is not all; false where there is no more than one. */
+/* "N errors", and how many of them were kept where that is not all; false where there is no more
+ * than one. */
 #define DIAGNOSTICS_COUNT_TEXT 64
 bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT]);
 
 /* "N warnings", and how many of them were kept; false where that is all. */
 bool diagnostics_warnings_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT]);
 
-/* Prints all in the order of file and position, with carets, and last those that have no file, as "psplat: error:
- * ...". Then how many errors there are, where there is more than one, and how many warnings, where not all were kept. */
+/* Prints all in the order of file and position, with carets, and last those that have no file, as
+ * "psplat: error: ...". Then how many errors there are, where there is more than one, and how many
+ * warnings, where not all were kept. */
 void diagnostics_print(const struct diagnostics *sink, FILE *stream);
 
 #endif

@@ -1,7 +1,7 @@
 /* layout.c: from token to token, with the gaps between them written anew.
  *
- * What stands first on a line gets its column from the block that it is in; what a gap of one line becomes follows from
- * the tokens at its ends. Everything else is copied.
+ * What stands first on a line gets its column from the block that it is in; what a gap of one line
+ * becomes follows from the tokens at its ends. Everything else is copied.
  */
 #include "parser/yaml/layout.h"
 
@@ -43,7 +43,8 @@ struct layout {
     size_t seen_count;
 };
 
-/* --- writing ------------------------------------------------------------------------------------------ */
+/* --- writing
+ * ------------------------------------------------------------------------------------------ */
 
 static void write_bytes(struct layout *layout, const char *bytes, size_t length)
 {
@@ -70,7 +71,8 @@ static size_t moved(struct move move, size_t column)
     return column + move.to > move.from ? column + move.to - move.from : 0;
 }
 
-/* --- comments and empty lines ------------------------------------------------------------------------- */
+/* --- comments and empty lines
+ * ------------------------------------------------------------------------- */
 
 static size_t count_blanks(const char *text, size_t length)
 {
@@ -80,7 +82,8 @@ static size_t count_blanks(const char *text, size_t length)
     return count;
 }
 
-/* A line: its length without blanks at its end, with them, and with its break, which the last one lacks. */
+/* A line: its length without blanks at its end, with them, and with its break, which the last one
+ * lacks. */
 struct line {
     size_t length, text, whole;
     bool ends;
@@ -115,8 +118,8 @@ static size_t column_in_flow(const struct layout *layout, size_t column)
                  column);
 }
 
-/* A comment goes with the line below it if it stands in the same column, or else with those above. Between the columns of
- * two of them it stays there, or gets that of the deeper one. */
+/* A comment goes with the line below it if it stands in the same column, or else with those above.
+ * Between the columns of two of them it stays there, or gets that of the deeper one. */
 static size_t comment_column(const struct layout *layout, size_t column, const struct move *next)
 {
     if (layout->flow_depth > 0)
@@ -172,7 +175,8 @@ static void write_lines(struct layout *layout, size_t end, const struct move *ne
         write_line_end(layout);
 }
 
-/* --- tokens ------------------------------------------------------------------------------------------- */
+/* --- tokens
+ * ------------------------------------------------------------------------------------------- */
 
 static bool is_open(const struct token *token)
 {
@@ -234,7 +238,8 @@ static size_t first_column(struct layout *layout, const struct token *token, boo
     return token->column == block.from ? block.to : block.to + STEP;
 }
 
-/* A text of several lines: those behind the first move by as much as the block, or the line that it begins on. */
+/* A text of several lines: those behind the first move by as much as the block, or the line that it
+ * begins on. */
 static void write_token(struct layout *layout, const struct token *token)
 {
     const char *text = layout->text + token->start;

@@ -75,8 +75,8 @@ bool node_is_number(const struct node *node, double *number);
 const char *node_kind_name(const struct node *node);
 
 /* Resolves the merge key `<<` of a map: adds the items of the map, or maps, that it names, where
- * the key is not there yet. Where it names one by a formula (`=name`), nothing happens yet. Sets `culprit` to a node that is no map and cannot be merged, else
- * NULL. False when out of memory. */
+ * the key is not there yet. Where it names one by a formula (`=name`), nothing happens yet. Sets
+ * `culprit` to a node that is no map and cannot be merged, else NULL. False when out of memory. */
 bool node_merge(struct node *node, struct arena *arena, const struct node **culprit);
 
 #endif

@@ -78,7 +78,8 @@ ps_result tokens_scan(const char *text, size_t length, struct token **tokens, si
     return result;
 }
 
-/* --- meaning ------------------------------------------------------------------------------------------ */
+/* --- meaning
+ * ------------------------------------------------------------------------------------------ */
 
 static bool is_same_name(const yaml_char_t *a, const yaml_char_t *b)
 {

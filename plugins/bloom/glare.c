@@ -1,17 +1,20 @@
-/* glare.c: the veil that a lens or an eye lays around bright light (Spencer, Shirley, Zimmerman and Greenberg 1995,
- * Physically-based glare effects for digital images).
+/* glare.c: the veil that a lens or an eye lays around bright light (Spencer, Shirley, Zimmerman and
+ * Greenberg 1995, Physically-based glare effects for digital images).
  *
- * A share s of the light of each pixel is spread by a point-spread function whose integral is 1, and the rest stays:
+ * A share s of the light of each pixel is spread by a point-spread function whose integral is 1,
+ * and the rest stays:
  *
  *     PSF = (1 - s) delta + s / 4 (G(R) + G(R / 2) + G(R / 4) + G(R / 8))
  *
- * with Gaussians G of these standard deviations. Equal light in each octave of distance is a density that falls as
- * 1 / r^2 between R / 8 and R, as the measured glare of eyes does, without the corona of lashes and lens fibres. Sums of
- * Gaussians are usual (Jimenez 2014, Next generation post processing in Call of Duty); a pyramid of half-sized pictures is
- * faster still, but keeps neither the light of a pixel nor its place at odd sizes. Each blur goes on from the one before,
+ * with Gaussians G of these standard deviations. Equal light in each octave of distance is a
+ * density that falls as 1 / r^2 between R / 8 and R, as the measured glare of eyes does, without
+ * the corona of lashes and lens fibres. Sums of Gaussians are usual (Jimenez 2014, Next generation
+ * post processing in Call of Duty); a pyramid of half-sized pictures is faster still, but keeps
+ * neither the light of a pixel nor its place at odd sizes. Each blur goes on from the one before,
  * since variances add up.
  *
- * Where there is a threshold t, only what of a pixel's luminance L is above it takes part, a share 1 - t / L of its light.
+ * Where there is a threshold t, only what of a pixel's luminance L is above it takes part, a share
+ * 1 - t / L of its light.
  */
 #include "glare/gaussian.h"
 

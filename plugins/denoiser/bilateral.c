@@ -1,22 +1,23 @@
 /* bilateral.c: a blur of the indirect light that stops at edges of the geometry.
  *
- * A cross bilateral filter (Tomasi and Manduchi 1998; Eisemann and Durand 2004): what stops it is the
- * G-buffer, which has no noise, and not the light itself, whose noise it would take for edges. For
- * pixel p and its neighbours q, with positions x, normals n and Tukey's biweight
- * b(s) = max(0, 1 - s)^2,
+ * A cross bilateral filter (Tomasi and Manduchi 1998; Eisemann and Durand 2004): what stops it is
+ * the G-buffer, which has no noise, and not the light itself, whose noise it would take for edges.
+ * For pixel p and its neighbours q, with positions x, normals n and Tukey's biweight b(s) = max(0,
+ * 1 - s)^2,
  *
  *     w(p, q) = exp(-|p - q|^2 / (2 sigma^2)) * b((1 - n_p.n_q) / (1 - cos(normal)))
  *                                             * b(h^2 / distance^2)
  *     h^2     = sum of squares of either point's distance from the other's tangent plane
  *     E'(p)   = sum_q w(p, q) E(q) / sum_q w(p, q)
  *
- * The biweight ends: past the angle or the distance, nothing crosses at all (Durand and Dorsey 2002),
- * and it needs no exponential, so the loop runs in vectors. The plane's distance, and not that of the
- * points, keeps floors that recede from the camera smooth; surfaces in one plane do mix.
+ * The biweight ends: past the angle or the distance, nothing crosses at all (Durand and Dorsey
+ * 2002), and it needs no exponential, so the loop runs in vectors. The plane's distance, and not
+ * that of the points, keeps floors that recede from the camera smooth; surfaces in one plane do
+ * mix.
  *
- * E is the irradiance: the radiance is divided by albedo and multiplied again, channel by channel, so
- * that colours of surfaces stay sharp. A channel that a surface hardly reflects says nothing about
- * the light: it neither gives nor changes.
+ * E is the irradiance: the radiance is divided by albedo and multiplied again, channel by channel,
+ * so that colours of surfaces stay sharp. A channel that a surface hardly reflects says nothing
+ * about the light: it neither gives nor changes.
  */
 #include <psplat/plugin.h>
 #include <stdio.h>
@@ -96,8 +97,8 @@ struct sums {
     float light[3][BLOCK], weight[3][BLOCK];
 };
 
-/* (1 - s)^2, 0 from s = 1 on: the maximum with 0 without a comparison, which would keep compilers from
- * making the loop around it a vector loop. */
+/* (1 - s)^2, 0 from s = 1 on: the maximum with 0 without a comparison, which would keep compilers
+ * from making the loop around it a vector loop. */
 static inline float biweight(float s)
 {
     float rest = 0.5f * (1.0f - s + fabsf(1.0f - s));

@@ -1,33 +1,38 @@
 /* regression.c: planes fitted to the irradiance, as wide as its noise asks for.
  *
- * regression/fit.h fits planes to the irradiance E of the pixels around, along the surfaces that they show. One
- * bandwidth cannot do: a wide one blurs, a narrow one leaves noise. So fits F_R of five bandwidths R make bands, and
- * each band is added as far as it is signal, neighbourhood by neighbourhood (shrinkage: James and Stein 1961;
- * Donoho and Johnstone 1994):
+ * regression/fit.h fits planes to the irradiance E of the pixels around, along the surfaces that
+ * they show. One bandwidth cannot do: a wide one blurs, a narrow one leaves noise. So fits F_R of
+ * five bandwidths R make bands, and each band is added as far as it is signal, neighbourhood by
+ * neighbourhood (shrinkage: James and Stein 1961; Donoho and Johnstone 1994):
  *
- *     E' = F_48 + sum over R = 24, 12, 6, 3 of k_R B,   B = F_R - F_2R,   k_R = max(0, 1 - (c <N^2> / <B^2>)^2)
+ *     E' = F_48 + sum over R = 24, 12, 6, 3 of k_R B
+ *     B = F_R - F_2R,   k_R = max(0, 1 - (c <N^2> / <B^2>)^2)
  *
- * The windows of the latter fits follow the edges of light (regression/steering.h). N is the band of a picture of the
- * noise alone, and <> a mean over a square around, of pixels of one kind (regression/kinds.h). Such a square holds only a
- * few blobs of noise, so noise sometimes passes for signal. Edges of light show in all bands, noise seldom in two: so the factor c
- * is 2 where the wider band was kept, 4 where it was not, and in between in proportion (bivariate shrinkage, Sendur and
- * Selesnick 2002). In a single pass, whose noise is estimated from the light itself, 1.2 takes the place of 2 past the
- * first band.
+ * The windows of the latter fits follow the edges of light (regression/steering.h). N is the band
+ * of a picture of the noise alone, and <> a mean over a square around, of pixels of one kind
+ * (regression/kinds.h). Such a square holds only a few blobs of noise, so noise sometimes passes
+ * for signal. Edges of light show in all bands, noise seldom in two: so the factor c is 2 where the
+ * wider band was kept, 4 where it was not, and in between in proportion (bivariate shrinkage,
+ * Sendur and Selesnick 2002). In a single pass, whose noise is estimated from the light itself, 1.2
+ * takes the place of 2 past the first band.
  *
- * Where two halves of the light are known, of passes or of shadow rays, their difference is the noise, and the pixels
- * themselves are a last band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect
- * light the noise is what pixels differ from a first fit, with random signs (the wild bootstrap, Wu 1986). That
- * needs noise that is independent from pixel to pixel, as that of paths is and that of splats is not. At edges, in gloss
- * and behind a lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of pixels
- * take one sign (the dependent wild bootstrap, Shao 2010).
+ * Where two halves of the light are known, of passes or of shadow rays, their difference is the
+ * noise, and the pixels themselves are a last band: light without noise stays as it is, with its
+ * hard shadows. Of a single pass of indirect light the noise is what pixels differ from a first
+ * fit, with random signs (the wild bootstrap, Wu 1986). That needs noise that is independent from
+ * pixel to pixel, as that of paths is and that of splats is not. At edges, in gloss and behind a
+ * lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of
+ * pixels take one sign (the dependent wild bootstrap, Shao 2010).
  *
- * Bright samples of few pixels would leave speckles in narrow bands. So each pixel is limited to twice the first fit (if the excess may
- * be noise and, where halves are known, few pixels near it are as bright). At the end the residual E - E' is fitted with
- * the widest bandwidth and added. It contains what was cut off, so no light is lost, and the bias of the fits (twicing, Tukey 1977).
+ * Bright samples of few pixels would leave speckles in narrow bands. So each pixel is limited to
+ * twice the first fit (if the excess may be noise and, where halves are known, few pixels near it
+ * are as bright). At the end the residual E - E' is fitted with the widest bandwidth and added. It
+ * contains what was cut off, so no light is lost, and the bias of the fits (twicing, Tukey 1977).
  *
- * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface hardly reflects says
- * nothing about the light, and is taken for the mean of its other channels. What gloss mirrors is fitted along
- * the glossy surface, as if it were irradiance, and is blurred as far as noise asks.
+ * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface
+ * hardly reflects says nothing about the light, and is taken for the mean of its other channels.
+ * What gloss mirrors is fitted along the glossy surface, as if it were irradiance, and is blurred
+ * as far as noise asks.
  */
 #include "regression/bands.h"
 #include "regression/bounds.h"
@@ -41,8 +46,8 @@
 #define FIRST 24                  /* bandwidth of the first fit */
 #define WIDEST REGRESSION_LARGEST /* of the rest */
 
-/* From the sum over bands to the error: errors of the bands are correlated, and detail finer than the narrowest fit is in no band.
- * Calibrated with path-traced references of seven scenes. */
+/* From the sum over bands to the error: errors of the bands are correlated, and detail finer than
+ * the narrowest fit is in no band. Calibrated with path-traced references of seven scenes. */
 #define UNSEEN 1.4f
 
 static const char *const automatic[] = {"auto", NULL};
@@ -191,7 +196,8 @@ static size_t floats_of(size_t width, size_t height, int images)
            (SCRATCH + (size_t)images * IMAGE) * width * height;
 }
 
-/* Images with halves may show means over several passes, and come first. The first one's guides are all of them's. */
+/* Images with halves may show means over several passes, and come first. The first one's guides are
+ * all of them's. */
 static void lay_out_all(struct denoised_images *images, const struct denoised_image *shared,
                         float *memory, const ps_image_view *views)
 {

@@ -1,14 +1,16 @@
-/* bdpt.c: bidirectional path tracing: paths from the pixels and from the lights, connected with each other.
+/* bdpt.c: bidirectional path tracing: paths from the pixels and from the lights, connected with
+ * each other.
  *
- * Lafortune and Willems 1993; Veach 1997, chapter 10. Each sample of a pixel has a path from the pixel's point and one
- * from a light. The same light can be found by the first alone, by the second alone, which then is connected to the
- * camera (light tracing), and by each way to connect one's surfaces with the other's. Multiple importance sampling
- * weighs them all (bdpt/subpath.h), so that each part of the light comes from what finds it best: caustics by light
- * tracing, light around corners by connections, what mirrors show by paths from the pixels.
+ * Lafortune and Willems 1993; Veach 1997, chapter 10. Each sample of a pixel has a path from the
+ * pixel's point and one from a light. The same light can be found by the first alone, by the second
+ * alone, which then is connected to the camera (light tracing), and by each way to connect one's
+ * surfaces with the other's. Multiple importance sampling weighs them all (bdpt/subpath.h), so that
+ * each part of the light comes from what finds it best: caustics by light tracing, light around
+ * corners by connections, what mirrors show by paths from the pixels.
  *
- * Weighed sums without bias are noisier than a cached gather where light is smooth, but hold where its way is hard to find
- * from one end. Light tracing arrives all over the picture: tiles go in batches, whose splats are added in the order of the
- * tiles, so that sums do not depend on threads.
+ * Weighed sums without bias are noisier than a cached gather where light is smooth, but hold where
+ * its way is hard to find from one end. Light tracing arrives all over the picture: tiles go in
+ * batches, whose splats are added in the order of the tiles, so that sums do not depend on threads.
  */
 #include "bdpt/camera.h"
 #include "bdpt/eye_paths.h"
@@ -90,9 +92,9 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-/* Adds the splats of a list to the pixels that see their points directly. Where a pixel's own point is behind a mirror or
- * glass, by chance or at an edge, nothing is added: the pixel's throughput, by which its light is multiplied, makes up
- * for what chance leaves out. */
+/* Adds the splats of a list to the pixels that see their points directly. Where a pixel's own point
+ * is behind a mirror or glass, by chance or at an edge, nothing is added: the pixel's throughput,
+ * by which its light is multiplied, makes up for what chance leaves out. */
 static void add_splats(const struct work *work, struct splat_list *splats)
 {
     const struct bdpt *bdpt = &work->bdpt;

@@ -1,18 +1,20 @@
-/* final_gather.c: a final gather over a photon map, the classic way to the same picture as gather.c.
+/* final_gather.c: a final gather over a photon map, the classic way to the same picture as
+ * gather.c.
  *
- * Jensen 1996: rays from the pixels' points find the last surface, and a photon map knows the light that it got from
- * others. Christensen 1999: that irradiance is computed beforehand at one photon of four, and a ray takes that of the
- * nearest one on a surface that faces alike, which costs a search for few neighbours in place of many. Where a ray is
- * shorter than the photons' estimate is wide, in corners, the blur would be seen: the path goes on by another ray.
+ * Jensen 1996: rays from the pixels' points find the last surface, and a photon map knows the light
+ * that it got from others. Christensen 1999: that irradiance is computed beforehand at one photon
+ * of four, and a ray takes that of the nearest one on a surface that faces alike, which costs a
+ * search for few neighbours in place of many. Where a ray is shorter than the photons' estimate is
+ * wide, in corners, the blur would be seen: the path goes on by another ray.
  *
- * The photons at which irradiance is computed are those of light paths of their own, which the estimates leave out. Where
- * they count themselves, estimates are too bright; where they only leave themselves out, too dark, since places that are far
- * from others, by chance, are the nearest ones to more points. What estimates lose at walls and edges is given back
- * (kernel_share.h).
+ * The photons at which irradiance is computed are those of light paths of their own, which the
+ * estimates leave out. Where they count themselves, estimates are too bright; where they only leave
+ * themselves out, too dark, since places that are far from others, by chance, are the nearest ones
+ * to more points. What estimates lose at walls and edges is given back (kernel_share.h).
  *
- * Direct light where rays land is by shadow rays, and rays are drawn and shared out as those of gather.c, so that both
- * differ by what they look up alone. Caustics, which rays would find by chance, have a map of their own that is looked
- * at directly, with a cone filter.
+ * Direct light where rays land is by shadow rays, and rays are drawn and shared out as those of
+ * gather.c, so that both differ by what they look up alone. Caustics, which rays would find by
+ * chance, have a map of their own that is looked at directly, with a cone filter.
  */
 #include "shared/gather_picture.h"
 #include "shared/kernel_share.h"
@@ -69,7 +71,8 @@ static bool belongs_to(const void *opaque, const ps_photon *photon)
            is_place(photon) == (part->map == &work->cache.places);
 }
 
-/* Adds those of n photons that belong to a map, with `scale` times their power; `chosen` is room for n. */
+/* Adds those of n photons that belong to a map, with `scale` times their power; `chosen` is room
+ * for n. */
 static ps_result add_chosen(const struct work *work, struct photon_map *map, float scale,
                             const ps_photon *photons, size_t n, ps_photon *chosen)
 {

@@ -1,26 +1,29 @@
 /* gather.c: a final gather over surfels that photons were splatted onto.
  *
- * Photons find light that is hard to find, but splats are expensive, and their blur and low-frequency noise are visible. Paths are
- * cheap and their noise can be denoised, but most of their segments go to light that has been reflected many times.
- * A final gather has the best of both (Reichert 1992; Jensen 1996; Christensen 1999): rays from the pixels' points
- * find the last surface,
+ * Photons find light that is hard to find, but splats are expensive, and their blur and
+ * low-frequency noise are visible. Paths are cheap and their noise can be denoised, but most of
+ * their segments go to light that has been reflected many times. A final gather has the best of
+ * both (Reichert 1992; Jensen 1996; Christensen 1999): rays from the pixels' points find the last
+ * surface,
  *
  *     E(x) = integral of (L_direct(y) + albedo(y) / pi * E(y)) cos(theta) dw,   y = y(x, w)
  *
- * with L_direct by next-event estimation and E(y), light that met other surfaces before, from a cache. Here the cache is
- * photon splatting: surfels where such rays land take the place of pixels (surfels.h), so that injection,
- * stratification, visibility and filter are the plugins chosen. The cache also has what skies give to y, which next-event
- * estimation seldom finds in a room (skylight.h). Where the cache knows nothing, and where a ray is too
- * short for it, the path goes on by another segment. Mirrors, glass and gloss on the way are as path tracing has them
+ * with L_direct by next-event estimation and E(y), light that met other surfaces before, from a
+ * cache. Here the cache is photon splatting: surfels where such rays land take the place of pixels
+ * (surfels.h), so that injection, stratification, visibility and filter are the plugins chosen. The
+ * cache also has what skies give to y, which next-event estimation seldom finds in a room
+ * (skylight.h). Where the cache knows nothing, and where a ray is too short for it, the path goes
+ * on by another segment. Mirrors, glass and gloss on the way are as path tracing has them
  * (paths.h).
  *
- * Caustics at x, light from a source by mirrors, glass and smooth gloss alone, are left to photons, which are splatted onto the pixels:
- * gather rays would hit the source by chance only. What rough gloss reflects (PS_ROUGH_GLOSS) is wide and faint: next-event
- * estimation finds it where rays end, without the blotches of few photons.
+ * Caustics at x, light from a source by mirrors, glass and smooth gloss alone, are left to photons,
+ * which are splatted onto the pixels: gather rays would hit the source by chance only. What rough
+ * gloss reflects (PS_ROUGH_GLOSS) is wide and faint: next-event estimation finds it where rays end,
+ * without the blotches of few photons.
  *
- * Rays are drawn where those before them found light (guide.h), in rounds, and more of them in tiles whose first round
- * asks for it (allocation.h). A tile's rays of a round share a run of the Sobol sequence along a Z curve, as in
- * pathtrace.c.
+ * Rays are drawn where those before them found light (guide.h), in rounds, and more of them in
+ * tiles whose first round asks for it (allocation.h). A tile's rays of a round share a run of the
+ * Sobol sequence along a Z curve, as in pathtrace.c.
  */
 #include "gather/skylight.h"
 #include "gather/surfel_paths.h"
@@ -64,9 +67,10 @@ struct work {
 
 /* --- photons --- */
 
-/* Which photons are splatted where. Photons for the surfels whose light came through mirrors, glass or smooth gloss are collected, and
- * splatted after the correction by paths: paths find a light behind glass seldom, and then with far too much weight. What rough
- * gloss reflects is left to paths there, too: few photons with all of that light would make blotches. */
+/* Which photons are splatted where. Photons for the surfels whose light came through mirrors, glass
+ * or smooth gloss are collected, and splatted after the correction by paths: paths find a light
+ * behind glass seldom, and then with far too much weight. What rough gloss reflects is left to
+ * paths there, too: few photons with all of that light would make blotches. */
 struct splatting {
     const ps_host *host;
     bool onto_pixels, onto_surfels;
@@ -82,7 +86,8 @@ static bool belongs_on_pixels(const void *opaque, const ps_photon *photon)
     return splatting->onto_pixels && photon->bounce == 0 && photon->specular == PS_SHARP_GLOSS;
 }
 
-/* Paths that share places (ps_pass.shares_places) follow one another, and are better taken together. */
+/* Paths that share places (ps_pass.shares_places) follow one another, and are better taken
+ * together. */
 static bool belongs_on_surfels(const void *opaque, const ps_photon *photon)
 {
     const struct splatting *splatting = opaque;
@@ -216,7 +221,8 @@ static void clear_cache(struct pass_cache *cache)
     *cache = (struct pass_cache){.surfels = {.host = cache->surfels.host}};
 }
 
-/* What is known of a pass's whole picture, or room for it: in the state where another part may ask for it. */
+/* What is known of a pass's whole picture, or room for it: in the state where another part may ask
+ * for it. */
 static struct pass_cache *cache_of_pass(struct state *state, const ps_pass *pass,
                                         struct pass_cache *own)
 {

@@ -1,21 +1,25 @@
 /* hbao.c: ambient light that corners and grooves get less of: horizon-based ambient occlusion.
  *
- * Bavoil, Sainz and Dimitrov 2008, "Image-space horizon-based ambient occlusion". The hemisphere around the direction to
- * the viewer is cut into slices. In the slice of azimuth theta the tangent plane rises by the angle t, and what the picture shows
- * along a line of pixels rises to a horizon. Where a sample at distance r raises the horizon from h to h', the
- * directions in between are occluded by W(r) = max(0, 1 - r^2 / R^2). With all light weighing the same, as in the paper,
+ * Bavoil, Sainz and Dimitrov 2008, "Image-space horizon-based ambient occlusion". The hemisphere
+ * around the direction to the viewer is cut into slices. In the slice of azimuth theta the tangent
+ * plane rises by the angle t, and what the picture shows along a line of pixels rises to a horizon.
+ * Where a sample at distance r raises the horizon from h to h', the directions in between are
+ * occluded by W(r) = max(0, 1 - r^2 / R^2). With all light weighing the same, as in the paper,
  *
  *     A = 1 - 1 / N * sum over N slices and their samples of W(r) (sin h' - sin h)
  *
- * Irradiance weighs light by the cosine to the normal n. With w the slice's direction across the view v,
+ * Irradiance weighs light by the cosine to the normal n. With w the slice's direction across the
+ * view v,
  *
- *     A = 1 - 2 / N * sum of W(r) (F(h') - F(h)),   F(a) = (n.w) (a / 2 + sin(2a) / 4) + (n.v) sin(a)^2 / 2
+ *     A = 1 - 2 / N * sum of W(r) (F(h') - F(h))
+ *     F(a) = (n.w) (a / 2 + sin(2a) / 4) + (n.v) sin(a)^2 / 2
  *
  * which is the integral of the cosine over the directions between the horizons.
  *
- * Slices are spread evenly around v, not in the picture. What the picture shows has no thickness: a post before a wall
- * occludes all that is behind it. Points that the camera sees through mirrors, glass or out of focus take slices around
- * their normals, spread evenly in the picture, as the line back to the viewer is not known.
+ * Slices are spread evenly around v, not in the picture. What the picture shows has no thickness: a
+ * post before a wall occludes all that is behind it. Points that the camera sees through mirrors,
+ * glass or out of focus take slices around their normals, spread evenly in the picture, as the line
+ * back to the viewer is not known.
  */
 #include "shared/ambient_occlusion.h"
 
@@ -47,8 +51,8 @@ struct receiver {
     float reach;       /* the radius, in pixels */
 };
 
-/* A sample of a slice. Pixels do not lie on the slice's line, so each has its own azimuth; were the tangent plane not
- * that of the azimuth, surfaces that slant would occlude themselves. */
+/* A sample of a slice. Pixels do not lie on the slice's line, so each has its own azimuth; were the
+ * tangent plane not that of the azimuth, surfaces that slant would occlude themselves. */
 struct sample {
     float up, across;    /* how far it is from the point along the view, and across it */
     float across_normal; /* n.w */
@@ -85,7 +89,8 @@ static float light_below(const struct work *work, const struct receiver *receive
            receiver->view_normal * sine * sine;
 }
 
-/* How much of a slice's light the pixels along (u, v) hide, the first of them `shift` in [0, 1) of a step away. */
+/* How much of a slice's light the pixels along (u, v) hide, the first of them `shift` in [0, 1) of
+ * a step away. */
 static float occlude_slice(const struct work *work, const struct screen *screen,
                            const struct receiver *receiver, float u, float v, float shift)
 {
@@ -98,7 +103,8 @@ static float occlude_slice(const struct work *work, const struct screen *screen,
         if (!take_sample(work, screen, receiver, receiver->x + distance * u,
                          receiver->y + distance * v, &sample))
             continue;
-        /* Sine and cosine of the height above the tangent plane, times a length: arcs are for the few that rise. */
+        /* Sine and cosine of the height above the tangent plane, times a length: arcs are for the
+         * few that rise. */
         float rise = sample.up * receiver->view_normal + sample.across * sample.across_normal;
         float along = sample.across * receiver->view_normal - sample.up * sample.across_normal;
         if (!(rise * cosine > along * sine))
@@ -114,7 +120,8 @@ static float occlude_slice(const struct work *work, const struct screen *screen,
     return occlusion;
 }
 
-/* Whether the way from the viewer to a pixel's point is straight: the point then projects to that pixel. */
+/* Whether the way from the viewer to a pixel's point is straight: the point then projects to that
+ * pixel. */
 static int is_seen_straight(const struct receiver *receiver)
 {
     return fabsf(receiver->shown[0] - receiver->x) < 1.0f &&
@@ -128,7 +135,8 @@ static ps_vec3 direction_to_viewer(const struct work *work, ps_vec3 position)
     return ps_normalize(ps_subtract(work->camera.position, position));
 }
 
-/* The direction in the picture, of length 1, in which a direction across the view shows; 0 where it shows none. */
+/* The direction in the picture, of length 1, in which a direction across the view shows; 0 where it
+ * shows none. */
 static int project_direction(const struct work *work, const struct receiver *receiver, ps_vec3 w,
                              float direction[2])
 {

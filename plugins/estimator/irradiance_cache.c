@@ -1,16 +1,18 @@
 /* irradiance_cache.c: irradiance is computed at few points, and interpolated between them.
  *
- * Ward, Rubinstein and Clear 1988: indirect irradiance changes slowly over most surfaces. Records of it, each from some
- * hundred rays, know how it changes around them by translation and rotation (Ward and Heckbert 1992), and how fast that
- * change itself changes, from which follows how far they reach (Jarosz et al. 2012; Schwarzhaupt et al. 2012;
- * irradiance_cache/record.h). A pixel takes a mean of those that reach it.
+ * Ward, Rubinstein and Clear 1988: indirect irradiance changes slowly over most surfaces. Records
+ * of it, each from some hundred rays, know how it changes around them by translation and rotation
+ * (Ward and Heckbert 1992), and how fast that change itself changes, from which follows how far
+ * they reach (Jarosz et al. 2012; Schwarzhaupt et al. 2012; irradiance_cache/record.h). A pixel
+ * takes a mean of those that reach it.
  *
- * Where records go must not depend on threads. An overture asks for pixels at ever smaller spacings, from 64 down to 1:
- * those of one spacing that no record covers get one each, all at once. Only then are pixels interpolated.
+ * Where records go must not depend on threads. An overture asks for pixels at ever smaller
+ * spacings, from 64 down to 1: those of one spacing that no record covers get one each, all at
+ * once. Only then are pixels interpolated.
  *
- * Rays are paths to their ends, as path tracing has them (shared/paths.h), so that the mean is right but for
- * interpolation; light that comes from lamps by mirrors, glass and gloss alone, caustics, changes fast: photons bring it,
- * which are splatted onto the pixels.
+ * Rays are paths to their ends, as path tracing has them (shared/paths.h), so that the mean is
+ * right but for interpolation; light that comes from lamps by mirrors, glass and gloss alone,
+ * caustics, changes fast: photons bring it, which are splatted onto the pixels.
  */
 #include "irradiance_cache/cache.h"
 #include "shared/caustics.h"
@@ -132,7 +134,8 @@ static ps_result make_records(struct overture_round *round, size_t n, double don
     return PS_OK;
 }
 
-/* Of each pass other pixels are asked first: R2 sequence (Roberts 2018), a generalization of the golden ratio. */
+/* Of each pass other pixels are asked first: R2 sequence (Roberts 2018), a generalization of the
+ * golden ratio. */
 static uint32_t first_pixel(uint32_t spacing, uint32_t pass, double ratio)
 {
     double place = 0.5 + pass * ratio;

@@ -1,11 +1,13 @@
 /* lightcuts.c: as many virtual point lights as there are photons, of which each pixel asks a few.
  *
- * Walter et al. 2005, "Lightcuts: a scalable approach to illumination". Lights are gathered in a tree
- * (lightcuts/light_tree.h); each pixel refines its own cut through it until no cluster could be off by more than a share of the light, or there are
- * too many (lightcuts/cut.h). Cost grows far slower than the number of lights.
+ * Walter et al. 2005, "Lightcuts: a scalable approach to illumination". Lights are gathered in a
+ * tree (lightcuts/light_tree.h); each pixel refines its own cut through it until no cluster could
+ * be off by more than a share of the light, or there are too many (lightcuts/cut.h). Cost grows far
+ * slower than the number of lights.
  *
- * What clamping takes away comes by short rays, as in vpl (shared/compensation.h). Gloss that a pixel sees is followed by
- * the camera's own paths, so a pixel's point is diffuse, and needs irradiance alone.
+ * What clamping takes away comes by short rays, as in vpl (shared/compensation.h). Gloss that a
+ * pixel sees is followed by the camera's own paths, so a pixel's point is diffuse, and needs
+ * irradiance alone.
  */
 #include "lightcuts/cut.h"
 #include "shared/compensation.h"

@@ -1,15 +1,18 @@
 /* lpv.c: cascaded light propagation volumes: light that goes from cell to cell of grids.
  *
- * Kaplanyan and Dachsbacher 2010, "Cascaded light propagation volumes for real-time indirect illumination". Photons shine
- * into the cells that they lie in; light goes on from cell to cell, in spherical harmonics of order 1, past what surfaces
- * cover (lpv/light_grid.h); nested grids are finer around what the camera sees (lpv/cascades.h). Then a pixel asks the cells
- * around for its irradiance.
+ * Kaplanyan and Dachsbacher 2010, "Cascaded light propagation volumes for real-time indirect
+ * illumination". Photons shine into the cells that they lie in; light goes on from cell to cell, in
+ * spherical harmonics of order 1, past what surfaces cover (lpv/light_grid.h); nested grids are
+ * finer around what the camera sees (lpv/cascades.h). Then a pixel asks the cells around for its
+ * irradiance.
  *
- * Photons have the light of as many bounces as are asked for, so that there is no second propagation for each, as in the
- * paper: one bounce takes as long as all. Caustics, which cells would blur, are splatted. The paper takes its lights from
- * the pixels of reflective shadow maps; with injection=rsm or voxel, light is of one bounce as there.
+ * Photons have the light of as many bounces as are asked for, so that there is no second
+ * propagation for each, as in the paper: one bounce takes as long as all. Caustics, which cells
+ * would blur, are splatted. The paper takes its lights from the pixels of reflective shadow maps;
+ * with injection=rsm or voxel, light is of one bounce as there.
  *
- * Each pass shifts the grids by a part of a cell, so that what depends on where cells lie is averaged.
+ * Each pass shifts the grids by a part of a cell, so that what depends on where cells lie is
+ * averaged.
  */
 #include "lpv/cascades.h"
 #include "shared/caustics.h"
@@ -34,7 +37,8 @@ struct work {
     uint64_t lost;            /* photons that no grid holds */
 };
 
-/* --- grids ---------------------------------------------------------------------------------------------------- */
+/* --- grids
+ * ---------------------------------------------------------------------------------------------- */
 
 /* The mean of what pixels show, as far as it lies in the scene's sphere. */
 static ps_vec3 find_focus(const ps_host *host, const ps_pass *pass)
@@ -104,7 +108,8 @@ static ps_result fill(const struct state *state, struct work *work)
                : result;
 }
 
-/* --- the picture ------------------------------------------------------------------------------------------------ */
+/* --- the picture
+ * ---------------------------------------------------------------------------------------------- */
 
 static void light_tile(void *user, uint64_t index, uint32_t worker)
 {

@@ -4,11 +4,13 @@
  *
  *     E(x) = integral of L(y(x, w)) cos(theta) dw
  *
- * With directions drawn by cos(theta) / pi, a sample is pi times the radiance along a path (paths.h).
+ * With directions drawn by cos(theta) / pi, a sample is pi times the radiance along a path
+ * (paths.h).
  *
- * The samples of a tile's pixels are parts of one aligned block of the Owen-scrambled Sobol sequence, in the order of a
- * Z curve (ps_tile_sample). So not only those of a pixel are stratified, but those of squares of pixels as well, and
- * what one pixel has too much of its neighbours have too little: a denoiser finds less noise.
+ * The samples of a tile's pixels are parts of one aligned block of the Owen-scrambled Sobol
+ * sequence, in the order of a Z curve (ps_tile_sample). So not only those of a pixel are
+ * stratified, but those of squares of pixels as well, and what one pixel has too much of its
+ * neighbours have too little: a denoiser finds less noise.
  */
 #include "shared/paths.h"
 

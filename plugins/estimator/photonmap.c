@@ -3,9 +3,9 @@
  * Jensen 1996. Every photon is traced to the surface it lights and stored there; at
  * each pixel the nearest photons estimate the irradiance (photon_map.h).
  *
- * With `gather`, photons stay where they leave a surface, with the power that leaves the surface, and
- * the estimate is looked up where cosine-distributed rays from the pixel land (final gather), after
- * mirrors, gloss and glass on their way.
+ * With `gather`, photons stay where they leave a surface, with the power that leaves the surface,
+ * and the estimate is looked up where cosine-distributed rays from the pixel land (final gather),
+ * after mirrors, gloss and glass on their way.
  */
 #include "shared/photon_map.h"
 

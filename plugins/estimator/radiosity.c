@@ -1,12 +1,13 @@
 /* radiosity.c: light is exchanged between pieces of the surfaces, and looked at afterwards.
  *
- * Goral et al. 1984: B_i = rho_i (D_i + sum_j F_ij B_j). Here by a hierarchy of elements, so that the work does not grow
- * with the square of their number (radiosity/links.h); the picture takes the light of the linked elements anew at each
- * pixel (radiosity/local_pass.h).
+ * Goral et al. 1984: B_i = rho_i (D_i + sum_j F_ij B_j). Here by a hierarchy of elements, so that
+ * the work does not grow with the square of their number (radiosity/links.h); the picture takes the
+ * light of the linked elements anew at each pixel (radiosity/local_pass.h).
  *
- * The solution knows diffuse surfaces alone. Mirrors, glass and gloss are black to it, but for their diffuse part, and
- * stand in the way: what they pass on to a surface that others see is lost. What lamps send to the pixels by them
- * alone, caustics, comes by photons, which are splatted (shared/caustics.h), and what the camera sees in mirrors is lit like all else.
+ * The solution knows diffuse surfaces alone. Mirrors, glass and gloss are black to it, but for
+ * their diffuse part, and stand in the way: what they pass on to a surface that others see is lost.
+ * What lamps send to the pixels by them alone, caustics, comes by photons, which are splatted
+ * (shared/caustics.h), and what the camera sees in mirrors is lit like all else.
  *
  * All passes share one solution, made in the first of them: it goes by the seed alone.
  */

@@ -5,12 +5,12 @@
  *
  *     E(p) += Phi * K(p) * V(p) * max(0, -n.w)        irradiance, W/m^2
  *
- * The cosine belongs here since K lies across the bundle; a photon map's gather, whose kernel lies in
- * the surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the
+ * The cosine belongs here since K lies across the bundle; a photon map's gather, whose kernel lies
+ * in the surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the
  * inner loop are the core's (src/splat), shared by whatever splats.
  *
- * A kernel blurs what is smaller than itself, so part of the light from nearby is left out of splats and
- * found by short rays (host->gather_short_range).
+ * A kernel blurs what is smaller than itself, so part of the light from nearby is left out of
+ * splats and found by short rays (host->gather_short_range).
  */
 #include <psplat/plugin.h>
 

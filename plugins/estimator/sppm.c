@@ -1,18 +1,21 @@
-/* sppm.c: stochastic progressive photon mapping: photon mapping whose bias goes away with the passes.
+/* sppm.c: stochastic progressive photon mapping: photon mapping whose bias goes away with the
+ * passes.
  *
- * Hachisuka, Ogaki and Jensen 2008; Hachisuka and Jensen 2009. Every pass traces new photons, looks at other points of the
- * pixels, and estimates the irradiance with a smaller radius than the pass before. After Knaus and Zwicker 2011 a pass
- * needs nothing of those before it: its radius is
+ * Hachisuka, Ogaki and Jensen 2008; Hachisuka and Jensen 2009. Every pass traces new photons, looks
+ * at other points of the pixels, and estimates the irradiance with a smaller radius than the pass
+ * before. After Knaus and Zwicker 2011 a pass needs nothing of those before it: its radius is
  *
  *     r_i = s_i r,   s_i^2 = product over j = 1 .. i of (j + alpha) / (j + 1),   i = 0, 1, 2, ...
  *
- * and the mean over N passes has a variance that falls with N^-alpha and a bias that falls with N^(alpha - 1): both go
- * to 0 for 0 < alpha < 1, and with alpha = 2/3 the error falls with N^(-1/3), the best rate there is.
+ * and the mean over N passes has a variance that falls with N^-alpha and a bias that falls with
+ * N^(alpha - 1): both go to 0 for 0 < alpha < 1, and with alpha = 2/3 the error falls with
+ * N^(-1/3), the best rate there is.
  *
- * r, in place of statistics that a pixel keeps, is the distance of the k-th photon in the pass's own map. So radii are small
- * where photons are dense, as those of pixels that count their photons become (Kaplanyan and Dachsbacher 2013), and a pass
- * stays a function of its number. Photons within s of that distance are as dense as those within it, so that shrinking
- * brings no bias of its own.
+ * r, in place of statistics that a pixel keeps, is the distance of the k-th photon in the pass's
+ * own map. So radii are small where photons are dense, as those of pixels that count their photons
+ * become (Kaplanyan and Dachsbacher 2013), and a pass stays a function of its number. Photons
+ * within s of that distance are as dense as those within it, so that shrinking brings no bias of
+ * its own.
  */
 #include "shared/photon_map.h"
 

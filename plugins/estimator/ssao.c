@@ -1,18 +1,18 @@
 /* ssao.c: ambient light that corners and grooves get less of: screen-space ambient occlusion.
  *
  * The cheap end of what splatting is compared with (Hoet 2014, section 2.1; Mittring 2007). This is
- * the estimator of McGuire et al. 2011, "The Alchemy screen-space ambient obscurance algorithm", which
- * needs nothing but positions and normals. Samples q lie in the disc of pixels that a
- * ball of radius r around the pixel's point p covers; with v = q - p, normal n and bias b,
+ * the estimator of McGuire et al. 2011, "The Alchemy screen-space ambient obscurance algorithm",
+ * which needs nothing but positions and normals. Samples q lie in the disc of pixels that a ball of
+ * radius r around the pixel's point p covers; with v = q - p, normal n and bias b,
  *
  *     A(p) = max(0, 1 - 2 intensity r / s * sum over s samples of
  *                       max(0, v.n - b r) / (v.v + e) * max(0, 1 - v.v / r^2))
  *     E(p) = irradiance * A(p)          W/m^2
  *
- * Lengths in units of r, with e = (r / 10)^2, make A free of units: a scene twice as large looks the
- * same. The paper's bias grows with the distance from the camera, as errors of a depth buffer do;
- * positions here are exact, and a long lens would lose the effect. The last factor lets it end at r,
- * so that what passes far in front of a surface casts no halo.
+ * Lengths in units of r, with e = (r / 10)^2, make A free of units: a scene twice as large looks
+ * the same. The paper's bias grows with the distance from the camera, as errors of a depth buffer
+ * do; positions here are exact, and a long lens would lose the effect. The last factor lets it end
+ * at r, so that what passes far in front of a surface casts no halo.
  */
 #include "shared/ambient_occlusion.h"
 
@@ -43,8 +43,8 @@ static float obscurance(const struct work *work, const struct screen_point *poin
     return work->radius * height / (length2 + 0.01f * radius2) * (1.0f - length2 / radius2);
 }
 
-/* Samples along a spiral over the disc, all of the same share of its area; `numbers` turn it and shift
- * it outwards. */
+/* Samples along a spiral over the disc, all of the same share of its area; `numbers` turn it and
+ * shift it outwards. */
 static float visibility(const void *user, const struct screen *screen,
                         const struct screen_point *point, uint32_t x, uint32_t y,
                         const float numbers[4])

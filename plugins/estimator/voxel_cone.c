@@ -1,15 +1,18 @@
 /* voxel_cone.c: voxel cone tracing: the scene in voxels, at which cones look.
  *
- * Crassin, Neyret, Sainz, Green and Eisemann 2011, "Interactive indirect illumination using voxel cone tracing". Light that
- * leaves surfaces is kept in voxels that know it by six sides, and in coarser and coarser levels of them
- * (voxel_cone/volume.h). Irradiance at a pixel is what a few cones see, each in levels as coarse as it is wide
- * (voxel_cone/cones.h): so there is no noise of rays, and cost does not depend on what the scene consists of.
+ * Crassin, Neyret, Sainz, Green and Eisemann 2011, "Interactive indirect illumination using voxel
+ * cone tracing". Light that leaves surfaces is kept in voxels that know it by six sides, and in
+ * coarser and coarser levels of them (voxel_cone/volume.h). Irradiance at a pixel is what a few
+ * cones see, each in levels as coarse as it is wide (voxel_cone/cones.h): so there is no noise of
+ * rays, and cost does not depend on what the scene consists of.
  *
- * Light comes into the voxels by shadow rays where it has met one surface, and by photons where it has met more
- * (voxel_cone/voxelize.h), gloss and mirrors included. So all bounces cost as much as one, where the paper gathers again
- * from voxels for each. Caustics, which voxels would blur, are splatted.
+ * Light comes into the voxels by shadow rays where it has met one surface, and by photons where it
+ * has met more (voxel_cone/voxelize.h), gloss and mirrors included. So all bounces cost as much as
+ * one, where the paper gathers again from voxels for each. Caustics, which voxels would blur, are
+ * splatted.
  *
- * Each pass shifts the grid by a part of a voxel and turns the cones, so that what depends on either is averaged.
+ * Each pass shifts the grid by a part of a voxel and turns the cones, so that what depends on
+ * either is averaged.
  */
 #include "shared/caustics.h"
 #include "shared/photons.h"
@@ -40,7 +43,8 @@ struct work {
     float pass_turn; /* 0..1 */
 };
 
-/* --- the volume ---------------------------------------------------------------------------------------------- */
+/* --- the volume
+ * ---------------------------------------------------------------------------------------------- */
 
 /* Photons on their way into the volume. */
 struct photon_work {
@@ -48,7 +52,8 @@ struct photon_work {
     struct photon_light light;
 };
 
-/* Whether a photon is light that shadow rays from the voxels do not find, and the cones are to see. */
+/* Whether a photon is light that shadow rays from the voxels do not find, and the cones are to
+ * see. */
 static bool is_wanted(const ps_pass *pass, const ps_photon *photon)
 {
     if (photon->bounce == 0 || photon->bounce > pass->bounces)
@@ -112,7 +117,8 @@ static ps_result make_volume(const struct state *state, struct work *work, const
     return result;
 }
 
-/* --- the picture ---------------------------------------------------------------------------------------------- */
+/* --- the picture
+ * ---------------------------------------------------------------------------------------------- */
 
 static void light_tile(void *user, uint64_t index, uint32_t worker)
 {

@@ -1,8 +1,10 @@
-/* vpl.c: instant radiosity: photons as point lights over their hemispheres (shared/virtual_lights.h).
+/* vpl.c: instant radiosity: photons as point lights over their hemispheres
+ * (shared/virtual_lights.h).
  *
- * Keller 1997. What a light reaches comes from a few rays of each light (vpl/hemisphere_map.h), or from a shadow ray for each
- * light and pixel. Without either it is splatting indirect illumination (Dachsbacher and Stamminger 2006), and the left
- * half of figure 5 in Hoet 2014. What corners lose by the clamp comes by short rays (shared/compensation.h).
+ * Keller 1997. What a light reaches comes from a few rays of each light (vpl/hemisphere_map.h), or
+ * from a shadow ray for each light and pixel. Without either it is splatting indirect illumination
+ * (Dachsbacher and Stamminger 2006), and the left half of figure 5 in Hoet 2014. What corners lose
+ * by the clamp comes by short rays (shared/compensation.h).
  *
  * Cost is lights times pixels, so only `lights` photons, drawn at random from all, are used, with
  * the power of all.

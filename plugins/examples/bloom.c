@@ -1,12 +1,13 @@
-/* bloom.c: an example: streaks, which run from bright light to the right and fade, as on a wiped lens. */
+/* bloom.c: an example: streaks, which run from bright light to the right and fade, as on a wiped
+ * lens. */
 #include <psplat/plugin.h>
 
 struct state {
     double strength, fade;
 };
 
-/* Of the light of each pixel a share goes on to the right, where of what arrives so much lands in each pixel; the last
- * one takes all that is left. */
+/* Of the light of each pixel a share goes on to the right, where of what arrives so much lands in
+ * each pixel; the last one takes all that is left. */
 static void streak(const struct state *state, uint32_t width, float *row)
 {
     double carried = 0.0;

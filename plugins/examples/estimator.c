@@ -11,7 +11,8 @@ struct work {
     const ps_pass *pass;
 };
 
-/* With directions drawn by the cosine, a ray's irradiance is pi times the radiance that it finds. */
+/* With directions drawn by the cosine, a ray's irradiance is pi times the radiance that it
+ * finds. */
 static void gather_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;

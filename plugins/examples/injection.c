@@ -1,4 +1,5 @@
-/* injection.c: an example: photons where light from the lights lands first, one for each light path. */
+/* injection.c: an example: photons where light from the lights lands first, one for each light
+ * path. */
 #include <psplat/plugin.h>
 
 struct state {

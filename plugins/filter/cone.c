@@ -1,4 +1,5 @@
-/* cone.c: weight 1 - r / k, Jensen's cone filter: a cone of radius k that the disc of radius 1 cuts.
+/* cone.c: weight 1 - r / k, Jensen's cone filter: a cone of radius k that the disc of radius 1
+ * cuts.
  *
  * At k = 1 it is the filter tent, which falls to 0 at the rim; a larger k leaves 1 - 1/k of the
  * weight there, on the way to the filter box. Flatter splats are less noisy and show their edges.

@@ -1,8 +1,8 @@
 /* epanechnikov.c: weight 1 - r^2, a parabola over the disc.
  *
  * Of all kernels of one variance it is the one with the least mean square error of a density
- * estimate (Epanechnikov 1969). It needs no square root and has nothing to tune; at the rim it falls
- * to 0, so splats leave no edges.
+ * estimate (Epanechnikov 1969). It needs no square root and has nothing to tune; at the rim it
+ * falls to 0, so splats leave no edges.
  */
 #include <psplat/plugin.h>
 

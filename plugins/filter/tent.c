@@ -1,5 +1,5 @@
-/* tent.c: weight 1 - r, a cone over the disc that falls to 0 at its rim. For one that is cut off before
- * see cone.c, which is this at k = 1. */
+/* tent.c: weight 1 - r, a cone over the disc that falls to 0 at its rim. For one that is cut off
+ * before see cone.c, which is this at k = 1. */
 #include <psplat/plugin.h>
 
 static void weigh(const void *state, const float *r2, float *weights, size_t n)

@@ -1,25 +1,26 @@
 /* photon.c: photons by photon tracing.
  *
- * Light paths start at the lights with a share Phi / N of their power. At every surface a path leaves
- * a photon in a direction that the surface scatters to, with the power that it scatters (at a diffuse
- * one, power * albedo), and goes on along that very direction: the photon's bundled ray is the path's
- * next segment. So the first bounce needs no special case, and one bounce is the thesis's single
- * one. Photons on mirrors and glass make caustics; these surfaces do not count as bounces.
- * Russian roulette (Arvo and Kirk 1990) ends paths at diffuse surfaces with the albedo's complement
- * and divides the survivors' power, which keeps the mean.
+ * Light paths start at the lights with a share Phi / N of their power. At every surface a path
+ * leaves a photon in a direction that the surface scatters to, with the power that it scatters (at
+ * a diffuse one, power * albedo), and goes on along that very direction: the photon's bundled ray
+ * is the path's next segment. So the first bounce needs no special case, and one bounce is the
+ * thesis's single one. Photons on mirrors and glass make caustics; these surfaces do not count as
+ * bounces. Russian roulette (Arvo and Kirk 1990) ends paths at diffuse surfaces with the albedo's
+ * complement and divides the survivors' power, which keeps the mean.
  *
  * Emission and first direction share one four-dimensional Sobol point: low discrepancy over (light
  * direction, bounce direction) together.
  *
- * Splitting (Arvo and Kirk 1990): `split` light paths in a row share a walk. At every diffuse surface it
- * leaves a photon for each of them, into directions of a lattice that the walk's own numbers shift, and
- * goes on along the first. A pixel sees splats that come from all over, few of them from one place, so
- * their noise is nearly that of as many walks; but the walk is traced, and the walls around the
- * place are looked for, once for all. Each path keeps its own share Phi / N, so the mean is the same
- * whatever `split` is.
+ * Splitting (Arvo and Kirk 1990): `split` light paths in a row share a walk. At every diffuse
+ * surface it leaves a photon for each of them, into directions of a lattice that the walk's own
+ * numbers shift, and goes on along the first. A pixel sees splats that come from all over, few of
+ * them from one place, so their noise is nearly that of as many walks; but the walk is traced, and
+ * the walls around the place are looked for, once for all. Each path keeps its own share Phi / N,
+ * so the mean is the same whatever `split` is.
  *
- * Caustics are seen directly, where other photons' blotches are averaged over many of them, and few paths make them; so
- * they have walks of their own, as in Jensen 1996: `caustics` for each path, which end at their first diffuse surface.
+ * Caustics are seen directly, where other photons' blotches are averaged over many of them, and few
+ * paths make them; so they have walks of their own, as in Jensen 1996: `caustics` for each path,
+ * which end at their first diffuse surface.
  */
 #include <psplat/plugin.h>
 #include <stdbool.h>
@@ -68,8 +69,8 @@ static uint64_t path_count(const void *state)
     return (uint64_t)((const struct state *)state)->count;
 }
 
-/* Where there is more than one bounce. Light of a single bounce gains more from the even spread of separate
- * walks than they cost. */
+/* Where there is more than one bounce. Light of a single bounce gains more from the even spread of
+ * separate walks than they cost. */
 #define AUTOMATIC_SPLIT 4
 
 static uint32_t split_of(const struct state *state, const ps_pass *pass)
@@ -100,7 +101,8 @@ static size_t share_out(const struct state *state, const ps_pass *pass, uint64_t
     return shared;
 }
 
-/* Walks of n paths that share theirs with no others, for caustics alone; `round` numbers those of each path. */
+/* Walks of n paths that share theirs with no others, for caustics alone; `round` numbers those of
+ * each path. */
 static void share_out_caustics(const struct state *state, const ps_pass *pass, uint64_t first,
                                size_t n, uint64_t round, struct walk *walks)
 {
@@ -162,8 +164,9 @@ static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
     return largest;
 }
 
-/* Whether a walk leaves photons at a surface that scatters like this in the direction in which the walk goes
- * on, and has such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
+/* Whether a walk leaves photons at a surface that scatters like this in the direction in which the
+ * walk goes on, and has such a weight at most in any. `arriving` is then the power with which it
+ * came, but for roulette. */
 static int leaves_photons(const struct state *state, const ps_pass *pass, const ps_hit *hit,
                           const ps_bsdf_sample *scattered, float weight, struct walk *walk,
                           ps_rgb *arriving)
@@ -198,8 +201,8 @@ static size_t trace_walks(const ps_host *host, struct walk *walks, size_t n, ps_
     return met;
 }
 
-/* The numbers of a walk for its direction `number`, moved by that point of the (0, 2)-sequence of Sobol:
- * digit by digit, so that they stay as evenly spread. */
+/* The numbers of a walk for its direction `number`, moved by that point of the (0, 2)-sequence of
+ * Sobol: digit by digit, so that they stay as evenly spread. */
 static void move_numbers(uint32_t number, float numbers[4])
 {
     uint32_t x = 0, y = 0, column = 1u << 31;
@@ -255,8 +258,8 @@ static ps_photon photon_of(const struct walk *walk, const ps_hit *hit,
     };
 }
 
-/* The photons of all paths of a walk; returns how many. A mirror sends all paths the same way: one photon
- * has the power of all. */
+/* The photons of all paths of a walk; returns how many. A mirror sends all paths the same way: one
+ * photon has the power of all. */
 static size_t leave_photons(const struct walk *walk, const ps_hit *hit,
                             const ps_bsdf_sample *scattered, ps_rgb arriving, ps_photon *photons)
 {
@@ -284,8 +287,8 @@ static int may_go_on(const ps_pass *pass, const struct walk *walk)
     return ps_rgb_maximum(walk->power) > 0.0f && (pass->specular || walk->bounces < pass->bounces);
 }
 
-/* Carries all walks to their next surface, where they leave `count` photons; returns how many go on,
- * moved to the front. */
+/* Carries all walks to their next surface, where they leave `count` photons; returns how many go
+ * on, moved to the front. */
 static size_t extend_walks(const struct state *state, const ps_host *host, const ps_pass *pass,
                            struct walk *walks, size_t n, ps_photon *photons, size_t *count)
 {

@@ -1,28 +1,29 @@
 /* rsm.c: photons by reflective shadow maps (Dachsbacher and Stamminger 2005).
  *
- * A map is the scene as a light sees it. Each of its pixels is a candidate: a place on a surface, and
- * the flux that the light sends there,
+ * A map is the scene as a light sees it. Each of its pixels is a candidate: a place on a surface,
+ * and the flux that the light sends there,
  *
  *     intensity * solid angle of the pixel        point lights and spotlights
  *     irradiance * area of the pixel              suns
  *
- * Of all candidates `count` are chosen with probabilities p in proportion to the flux that they reflect
- * (importance sampling as in Dachsbacher and Stamminger 2006, "Splatting indirect illumination"; Hoet
- * 2014, section 4.2), by an alias table. Each choice leaves one photon, in a direction that the surface
- * scatters to, with the power flux * reflectance / (p * count). That is the same for all photons but
- * for colour, so none stands out.
+ * Of all candidates `count` are chosen with probabilities p in proportion to the flux that they
+ * reflect (importance sampling as in Dachsbacher and Stamminger 2006, "Splatting indirect
+ * illumination"; Hoet 2014, section 4.2), by an alias table. Each choice leaves one photon, in a
+ * direction that the surface scatters to, with the power flux * reflectance / (p * count). That is
+ * the same for all photons but for colour, so none stands out.
  *
- * A spotlight's map is a perspective one, as wide as its cone; wide cones and point lights have the six
- * faces of a cube. A sun's pixels share out the disc across its light that holds the scene, in equal
- * areas. Area lights and skies have no one place to look from: each of their pixels is a ray of
- * its own, from a place on the light in a direction of its own.
+ * A spotlight's map is a perspective one, as wide as its cone; wide cones and point lights have the
+ * six faces of a cube. A sun's pixels share out the disc across its light that holds the scene, in
+ * equal areas. Area lights and skies have no one place to look from: each of their pixels is a ray
+ * of its own, from a place on the light in a direction of its own.
  *
- * Rays are traced rather than triangles rasterized, so a candidate needs no memory but its weight: the
- * ray of a chosen one is traced again. In each pass the rays go through another place of their pixels.
+ * Rays are traced rather than triangles rasterized, so a candidate needs no memory but its weight:
+ * the ray of a chosen one is traced again. In each pass the rays go through another place of their
+ * pixels.
  *
- * A map sees one bounce. Mirrors and glass do not count as one, as in `photon`: what they send on makes
- * photons too, before and after the diffuse surface. Where two diffuse surfaces follow each other, light
- * ends.
+ * A map sees one bounce. Mirrors and glass do not count as one, as in `photon`: what they send on
+ * makes photons too, before and after the diffuse surface. Where two diffuse surfaces follow each
+ * other, light ends.
  */
 #include <psplat/plugin.h>
 #include <stdio.h>
@@ -63,7 +64,8 @@ struct path {
     uint8_t specular; /* ps_gloss */
 };
 
-/* --- the maps of the lights ------------------------------------------------------------------------ */
+/* --- the maps of the lights
+ * ------------------------------------------------------------------------ */
 
 static uint32_t maps_of_light(const ps_light *light)
 {
@@ -95,7 +97,8 @@ static int32_t create_maps(struct state *state, const ps_host *host)
     return 0;
 }
 
-/* --- candidates -------------------------------------------------------------------------------------- */
+/* --- candidates
+ * -------------------------------------------------------------------------------------- */
 
 /* Where pixel `pixel` of a map lies in the unit square, in this pass. */
 static void place_pixel(const struct state *state, uint32_t pixel, float place[2])
@@ -154,9 +157,9 @@ static void look(const struct state *state, const ps_host *host, const ps_pass *
         look_from_all_over(state, host, pass, map, pixels, n, rays, power);
 }
 
-/* What decides how often a candidate is chosen: the flux that it reflects, all three colours counting
- * alike, lest one be noisier than the others. Of mirrors and glass it is the most that they could, so
- * that nothing is left out. */
+/* What decides how often a candidate is chosen: the flux that it reflects, all three colours
+ * counting alike, lest one be noisier than the others. Of mirrors and glass it is the most that
+ * they could, so that nothing is left out. */
 static float weigh(const ps_hit *hit, ps_rgb power)
 {
     if (!(hit->distance < INFINITY))
@@ -228,7 +231,8 @@ static ps_result prepare(void *opaque, const ps_host *host, const ps_pass *pass)
     return PS_OK;
 }
 
-/* --- photons ------------------------------------------------------------------------------------------- */
+/* --- photons
+ * ------------------------------------------------------------------------------------------- */
 
 /* None where no light meets anything. */
 static uint64_t path_count(const void *opaque)
@@ -248,8 +252,8 @@ static void start_path(const struct state *state, const ps_host *host, const ps_
     path->power = ps_rgb_scale(path->power, (float)(1.0 / choices));
 }
 
-/* Choice and direction share one four-dimensional point. The number that chooses among the cells of the
- * alias table gets 24 more bits: there may be more cells than a float in [0,1) has values. */
+/* Choice and direction share one four-dimensional point. The number that chooses among the cells of
+ * the alias table gets 24 more bits: there may be more cells than a float in [0,1) has values. */
 static void start_paths(const struct state *state, const ps_host *host, const ps_pass *pass,
                         uint64_t first, size_t n, struct path *paths)
 {
@@ -298,8 +302,8 @@ static void scatter_paths(const ps_host *host, uint32_t segment, const struct pa
     host->sample_bsdf(host, PS_FROM_LIGHT, rays, hits, (const float(*)[4])numbers, n, scattered);
 }
 
-/* Leaves photons where the paths meet something, but on a second diffuse surface. Paths that may yet
- * leave another are moved to the front. */
+/* Leaves photons where the paths meet something, but on a second diffuse surface. Paths that may
+ * yet leave another are moved to the front. */
 static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t segment,
                            struct path *paths, size_t n, ps_photon *photons, size_t *count)
 {
@@ -352,7 +356,8 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
     return result;
 }
 
-/* --- the plugin ------------------------------------------------------------------------------------------ */
+/* --- the plugin
+ * ------------------------------------------------------------------------------------------ */
 
 static void destroy(void *opaque, const ps_host *host)
 {

@@ -1,27 +1,27 @@
 /* voxel.c: photons by voxels: the scene in cubes, each of which reflects the light that it gets.
  *
- * The surfaces in a cubic cell are simplified into at most six voxels, one for each side that they may
- * face: a place on a real surface with its normal and albedo, and an area (Hoet 2014, section 4.2, third
- * method, after the injection of Kaplanyan and Dachsbacher 2010, Cascaded light propagation volumes).
- * Each voxel that a light reaches leaves one photon in each pass, with a direction w around the normal
- * by the cosine, and the power pi L(w) A, where L is the radiance that the place reflects there of light
- * straight from the lights: shadow rays decide what is lit.
+ * The surfaces in a cubic cell are simplified into at most six voxels, one for each side that they
+ * may face: a place on a real surface with its normal and albedo, and an area (Hoet 2014, section
+ * 4.2, third method, after the injection of Kaplanyan and Dachsbacher 2010, Cascaded light
+ * propagation volumes). Each voxel that a light reaches leaves one photon in each pass, with a
+ * direction w around the normal by the cosine, and the power pi L(w) A, where L is the radiance
+ * that the place reflects there of light straight from the lights: shadow rays decide what is lit.
  *
- * A plugin gets no geometry, so lines find the surfaces: a grid of lines, s apart, along each axis, both
- * ways, for a surface is met from the side that it is seen from. A unit of area with normal n is met by
- * |n_k| / s^2 of the lines along axis k (Cauchy and Crofton), so a crossing may stand for the area
- * s^2 / |n_k|, which has no bound. Weighed over the three axes by the balance heuristic (Veach and
- * Guibas 1995) each crossing stands for
+ * A plugin gets no geometry, so lines find the surfaces: a grid of lines, s apart, along each axis,
+ * both ways, for a surface is met from the side that it is seen from. A unit of area with normal n
+ * is met by |n_k| / s^2 of the lines along axis k (Cauchy and Crofton), so a crossing may stand for
+ * the area s^2 / |n_k|, which has no bound. Weighed over the three axes by the balance heuristic
+ * (Veach and Guibas 1995) each crossing stands for
  *
  *     s^2 / (|n_x| + |n_y| + |n_z|),
  *
- * between s^2 / sqrt(3) and s^2. A voxel's area is the sum over the crossings in it, and its place is one
- * of them, by chance in proportion to area. As the grids are shifted in each pass, the mean of the
- * photons' power is right at any resolution; what a fine one improves is noise, and places.
+ * between s^2 / sqrt(3) and s^2. A voxel's area is the sum over the crossings in it, and its place
+ * is one of them, by chance in proportion to area. As the grids are shifted in each pass, the mean
+ * of the photons' power is right at any resolution; what a fine one improves is noise, and places.
  *
- * Voxels are sorted by key rather than kept in a grid, so memory goes by surfaces and not by the cube of
- * the resolution. Mirrors and glass leave no photons, nor do surfaces outside of the sphere around the
- * scene (planes go on for ever).
+ * Voxels are sorted by key rather than kept in a grid, so memory goes by surfaces and not by the
+ * cube of the resolution. Mirrors and glass leave no photons, nor do surfaces outside of the sphere
+ * around the scene (planes go on for ever).
  */
 #include <psplat/plugin.h>
 
@@ -73,7 +73,8 @@ static float *component(ps_vec3 *vector, uint32_t axis)
     return axis == 0 ? &vector->x : (axis == 1 ? &vector->y : &vector->z);
 }
 
-/* --- lines ------------------------------------------------------------------------------------------------ */
+/* --- lines
+ * ---------------------------------------------------------------------------------------------- */
 
 /* Lines are numbered by way (0: along an axis, 1: against it), axis, row, column. */
 static uint32_t line_number(const struct lines *lines, uint32_t row, uint32_t column)
@@ -119,7 +120,8 @@ static void set_lines(struct state *state, const ps_host *host, const ps_pass *p
     state->offset = pass->surface_offset;
 }
 
-/* --- crossings -------------------------------------------------------------------------------------------- */
+/* --- crossings
+ * -------------------------------------------------------------------------------------------- */
 
 static ps_result append(const ps_host *host, struct crossings *list, const struct crossing *item)
 {
@@ -255,7 +257,8 @@ static ps_result find_crossings(const struct state *state, const ps_host *host,
     return result;
 }
 
-/* --- voxels ----------------------------------------------------------------------------------------------- */
+/* --- voxels
+ * ---------------------------------------------------------------------------------------------- */
 
 /* One of the crossings of a voxel, by chance, with the area of them all. */
 static struct crossing simplify(const struct crossing *crossings, const ps_key_entry *entries,
@@ -348,7 +351,8 @@ static ps_result prepare(void *opaque, const ps_host *host, const ps_pass *pass)
     return result;
 }
 
-/* --- photons ---------------------------------------------------------------------------------------------- */
+/* --- photons
+ * ---------------------------------------------------------------------------------------------- */
 
 static uint64_t path_count(const void *opaque)
 {
@@ -407,8 +411,9 @@ static uint64_t greatest_common_divisor(uint64_t a, uint64_t b)
     return a;
 }
 
-/* The path number of a voxel. Voxels are sorted by place, but any run of paths has to be a fair part of
- * all: steps of about the golden section, prime to their number, spread neighbours evenly. */
+/* The path number of a voxel. Voxels are sorted by place, but any run of paths has to be a fair
+ * part of all: steps of about the golden section, prime to their number, spread neighbours
+ * evenly. */
 static uint64_t fair_path(const struct state *state, const ps_pass *pass, uint64_t voxel)
 {
     uint64_t count = state->count, step = (uint64_t)(0.6180339887 * (double)count) + 1;
@@ -450,7 +455,8 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
     return sink->append(sink->core, photons, count);
 }
 
-/* --- the plugin ------------------------------------------------------------------------------------------- */
+/* --- the plugin
+ * ------------------------------------------------------------------------------------------- */
 
 static ps_result init(void *opaque, const ps_host *host)
 {

@@ -1,14 +1,15 @@
-/* intensity.c: weight-normalized colour times weight over the maximum weight (Hoet 2014, section 3.4).
+/* intensity.c: weight-normalized colour times weight over the maximum weight (Hoet 2014, section
+ * 3.4).
  *
  * The idea is to give the quotient C / W of the normalization `weight` back what it lost, how many
  * splats meet in a pixel, by the ratio of W to the picture's largest weight M:
  *
  *     exposure * C / W * W / M  =  exposure / M * C
  *
- * W cancels, whatever the splats are. So this is the density estimate up to one factor for the whole
- * picture, with all of its noise (which section 3.4 foresees) and none of the quotient's smoothness;
- * and where `auto` matches the mean of density, it is the density estimate itself. A number makes
- * the factor hang on the one pixel with the largest weight, as in the thesis.
+ * W cancels, whatever the splats are. So this is the density estimate up to one factor for the
+ * whole picture, with all of its noise (which section 3.4 foresees) and none of the quotient's
+ * smoothness; and where `auto` matches the mean of density, it is the density estimate itself. A
+ * number makes the factor hang on the one pixel with the largest weight, as in the thesis.
  *
  * A pixel that saw a surface in some passes only has its weight from these, so M is the largest
  * weight in a covered pass, and the picture fades with coverage.

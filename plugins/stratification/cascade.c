@@ -1,11 +1,11 @@
 /* cascade.c: the photons of each cell become one; cells are coarser farther from the camera.
  *
  * Grids of `resolution` cells a side lie in one another, all around the camera; each has cells
- * `growth` times as large as the one inside of it, and a photon belongs to the smallest that it lies
- * in. So what is close to the viewer keeps its detail, and far light costs little (Kaplanyan and
- * Dachsbacher 2010, "Cascaded light propagation volumes for real-time indirect illumination"; for
- * splatting Hoet 2014, sections 3.2.1 and 5.3.2). What lies outside of all of them is for `beyond`
- * to decide.
+ * `growth` times as large as the one inside of it, and a photon belongs to the smallest that it
+ * lies in. So what is close to the viewer keeps its detail, and far light costs little (Kaplanyan
+ * and Dachsbacher 2010, "Cascaded light propagation volumes for real-time indirect illumination";
+ * for splatting Hoet 2014, sections 3.2.1 and 5.3.2). What lies outside of all of them is for
+ * `beyond` to decide.
  *
  * `drop` loses the light of photons beyond, here alone of all stratifications, and the statistics
  * count them.

@@ -5,8 +5,8 @@
  * crowded cells end as few very bright photons beside dim ones, which shows as blotches (section
  * 5.3.2).
  *
- * The grid is a sorted list of photons (see cells.h), not an array of cells: 40 bytes a photon at any
- * resolution, where the array took 40 bytes a cell, 256^3 of them (section 5.1). So it has no
+ * The grid is a sorted list of photons (see cells.h), not an array of cells: 40 bytes a photon at
+ * any resolution, where the array took 40 bytes a cell, 256^3 of them (section 5.1). So it has no
  * outside either: cells go on wherever photons are, and `centre` only says where borders lie.
  */
 #include <psplat/plugin.h>
@@ -92,7 +92,8 @@ static ps_result stratify(const void *opaque, const ps_host *host, const ps_pass
     return PS_OK;
 }
 
-/* A cell that holds nothing goes by its own key, others by that of the first one that they joined. */
+/* A cell that holds nothing goes by its own key, others by that of the first one that they
+ * joined. */
 static uint64_t number_of(const ps_strata *strata, uint64_t key)
 {
     size_t entry = ps_strata_find(strata, key);

@@ -1,8 +1,8 @@
 /* octree.c: the photons of each leaf of an octree become one.
  *
  * A node splits while it holds more than `capacity` photons, down to `depth`. So cells are small
- * where light is dense and large where it is not, and the power of the photons that are left differs
- * little: Hoet 2014 (section 5.1) names the octree as what a grid of fixed cells lacks.
+ * where light is dense and large where it is not, and the power of the photons that are left
+ * differs little: Hoet 2014 (section 5.1) names the octree as what a grid of fixed cells lacks.
  *
  * No tree is built. Sorted by Morton code (see cells.h), a node is a run of photons that share the
  * leading bits (Warren and Salmon 1993, "A parallel hashed oct-tree N-body algorithm").
@@ -68,8 +68,8 @@ static ps_result stratify(const void *opaque, const ps_host *host, const ps_pass
     return PS_OK;
 }
 
-/* The leaf that a cell of the deepest level lies in, whether it holds photons or not: its path from the
- * root, behind a leading 1. */
+/* The leaf that a cell of the deepest level lies in, whether it holds photons or not: its path from
+ * the root, behind a leading 1. */
 static uint64_t leaf_around(const struct state *state, const ps_strata *strata, uint64_t key)
 {
     for (unsigned depth = 0;; depth++) {

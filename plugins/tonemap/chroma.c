@@ -1,8 +1,9 @@
 /* chroma.c: the shoulder of `filmic` on the luminance alone, so that colours keep their hue.
  *
- * The luminance L becomes f(L), and the colour is multiplied by f(L) / L. A saturated colour may then have a channel above
- * 1. Cutting that off would turn orange to yellow; so the colour moves straight towards the grey of its luminance until
- * it fits (Stone, Cowan and Beatty 1988, Color gamut mapping and the printing of digital color images):
+ * The luminance L becomes f(L), and the colour is multiplied by f(L) / L. A saturated colour may
+ * then have a channel above 1. Cutting that off would turn orange to yellow; so the colour moves
+ * straight towards the grey of its luminance until it fits (Stone, Cowan and Beatty 1988, Color
+ * gamut mapping and the printing of digital color images):
  *
  *     c' = f + t (c - f)    t = (1 - f) / (max c - f)
  *

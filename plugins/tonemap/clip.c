@@ -1,5 +1,5 @@
-/* clip.c: values above 1 are 1, which psplat sees to behind any tone map: the display values of Hoet 2014, and those
- * that comparisons use.
+/* clip.c: values above 1 are 1, which psplat sees to behind any tone map: the display values of
+ * Hoet 2014, and those that comparisons use.
  */
 #include <psplat/plugin.h>
 

@@ -1,7 +1,8 @@
 /* filmic.c: a straight line with a shoulder, on each channel apart (ps_shoulder).
  *
- * Most of a picture keeps its radiance; highlights bend towards 1 in place of being cut off. Channels are treated apart,
- * as film's layers are: bright colours fade towards white, and their hues shift a little on the way.
+ * Most of a picture keeps its radiance; highlights bend towards 1 in place of being cut off.
+ * Channels are treated apart, as film's layers are: bright colours fade towards white, and their
+ * hues shift a little on the way.
  */
 #include <psplat/plugin.h>
 

@@ -2,8 +2,9 @@
  *
  *     f(L) = L (1 + L / w^2) / (1 + L)
  *
- * The luminance w becomes 1, small ones stay nearly as they are. Channels are multiplied by f(L) / L, which keeps their
- * ratios, so that a bright saturated colour may have a channel above 1, which is cut off; `chroma` takes care of those.
+ * The luminance w becomes 1, small ones stay nearly as they are. Channels are multiplied by f(L) /
+ * L, which keeps their ratios, so that a bright saturated colour may have a channel above 1, which
+ * is cut off; `chroma` takes care of those.
  */
 #include <psplat/plugin.h>
 

@@ -6,8 +6,9 @@
  * Hoet 2014, section 4.3, proposes for real-time use.
  *
  * A point is drawn as a disc in its surface's plane, three times its area, with the plane's depth
- * at each texel's centre; the nearest counts. So a flat surface gets the very depth that a ray would
- * find, and only its border is off, by a disc's radius, which falls with the root of `points`.
+ * at each texel's centre; the nearest counts. So a flat surface gets the very depth that a ray
+ * would find, and only its border is off, by a disc's radius, which falls with the root of
+ * `points`.
  *
  * Points lie in a grid. A bundle walks it slab by slab from its start, along the axis that it is
  * closest to, and stops when no point farther on could change the map.
@@ -103,8 +104,8 @@ static void draw_point(struct map *map, const struct point *point)
             draw_texel(map, column, row, place, normal);
 }
 
-/* The bundle against the grid. Axes are numbered so that axis[0] is the one it is closest to, and all
- * vectors are in that order, from the grid's corner and in cells. */
+/* The bundle against the grid. Axes are numbered so that axis[0] is the one it is closest to, and
+ * all vectors are in that order, from the grid's corner and in cells. */
 struct walk {
     int axis[3];
     float centre[3], w[3];
@@ -173,7 +174,8 @@ static struct range beam_along(const struct walk *walk, int i, struct range dept
     return (struct range){fminf(a, b) - walk->extent[i], fmaxf(a, b) + walk->extent[i]};
 }
 
-/* Cuts a row of cells, (slab, row, x) for x in `range`, to what lies between the bundle's boundaries. */
+/* Cuts a row of cells, (slab, row, x) for x in `range`, to what lies between the bundle's
+ * boundaries. */
 static struct range cut_row(const struct walk *walk, int slab, int row, struct range range)
 {
     for (int wall = 0; wall < 2; wall++) {

@@ -4,9 +4,10 @@
  * Back faces count: a map that starts inside of something must see its far side, or light leaks
  * through.
  *
- * Pixels take light from before the boundaries beside a photon alone (ps_bundle.boundaries), but a texel that such
- * a wall cuts may have its centre behind it, from where a ray would start inside of a block, or in the next
- * room, and darken the texel's other part for nothing. So rays start before the boundaries, too.
+ * Pixels take light from before the boundaries beside a photon alone (ps_bundle.boundaries), but a
+ * texel that such a wall cuts may have its centre behind it, from where a ray would start inside of
+ * a block, or in the next room, and darken the texel's other part for nothing. So rays start before
+ * the boundaries, too.
  */
 #include <psplat/plugin.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* environment.h: the floating-point environment that renders count on.
  *
- * A program may round otherwise, or have denormal numbers flushed (as -ffast-math does for all of it); pictures must
- * not depend on that. All that computes runs between enter and leave, with the environment that processes start with;
- * threads that start there inherit it.
+ * A program may round otherwise, or have denormal numbers flushed (as -ffast-math does for all of
+ * it); pictures must not depend on that. All that computes runs between enter and leave, with the
+ * environment that processes start with; threads that start there inherit it.
  */
 #ifndef API_ENVIRONMENT_H
 #define API_ENVIRONMENT_H

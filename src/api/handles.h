@@ -7,7 +7,8 @@
 #include "trace/trace.h"
 #include <psplat/psplat.h>
 
-/* Seconds that loading took: reading and checking; making the scene; making what traces rays through it. */
+/* Seconds that loading took: reading and checking; making the scene; making what traces rays
+ * through it. */
 struct load_times {
     double load, scene, build;
 };

@@ -7,9 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- callbacks ---------------------------------------------------------------------------------------- */
+/* --- callbacks
+ * ---------------------------------------------------------------------------------------- */
 
-/* A process beside the first says only what that one can't: what it was warned of while it rendered. */
+/* A process beside the first says only what that one can't: what it was warned of while it
+ * rendered. */
 static bool may_tell(const psplat_scene *scene, bool is_warning)
 {
     return scene->listener &&
@@ -70,7 +72,8 @@ static ps_result take_callbacks(const psplat_callbacks *given, psplat_callbacks 
     return PS_OK;
 }
 
-/* --- pictures ----------------------------------------------------------------------------------------- */
+/* --- pictures
+ * ----------------------------------------------------------------------------------------- */
 
 /* What a display shows stays, so that it can be written. */
 static bool stays(const void *layers, const char *channel)
@@ -105,7 +108,8 @@ ps_result rendering_wrap(const psplat_rendering *rendering, struct image *image,
     return result;
 }
 
-/* --- the call ----------------------------------------------------------------------------------------- */
+/* --- the call
+ * ----------------------------------------------------------------------------------------- */
 
 static ps_result resolve(psplat_rendering *rendering, psplat_error *error)
 {

@@ -1,4 +1,5 @@
-/* rendering.h: what goes on within a call that renders: settings, callbacks and statistics of its own. */
+/* rendering.h: what goes on within a call that renders: settings, callbacks and statistics of its
+ * own. */
 #ifndef API_RENDERING_H
 #define API_RENDERING_H
 
@@ -19,7 +20,8 @@ struct psplat_rendering {
 
 typedef ps_result (*rendering_work)(psplat_rendering *rendering, void *user, struct error *error);
 
-/* Checks what psplat_render is given, and does the work with that; `rendering` has the scene, and whether it is a preview. */
+/* Checks what psplat_render is given, and does the work with that; `rendering` has the scene, and
+ * whether it is a preview. */
 ps_result rendering_do(psplat_rendering *rendering, const psplat_callbacks *callbacks,
                        rendering_work work, void *user, psplat_error *error);
 

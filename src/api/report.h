@@ -12,8 +12,8 @@ ps_result report_error(psplat_error *told, ps_result result, const struct error 
 /* Tells the errors among the diagnostics as one. Returns `result`. */
 ps_result report_problems(psplat_error *told, ps_result result, const struct diagnostics *sink);
 
-/* What a process among others tells of `result`: one beside the first leaves it to that one, PS_CANCELLED and no message,
- * where they have not agreed, or where it was cancelled. */
+/* What a process among others tells of `result`: one beside the first leaves it to that one,
+ * PS_CANCELLED and no message, where they have not agreed, or where it was cancelled. */
 ps_result report_of_process(psplat_error *told, ps_result result,
                             const struct processes *processes);
 

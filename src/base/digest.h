@@ -1,5 +1,5 @@
-/* digest.h: a number that stands for bytes: those that differ have another, but by a chance of one in 2^64. Not
- * against forgery. FNV-1a (Fowler, Noll, Vo; RFC 9923).
+/* digest.h: a number that stands for bytes: those that differ have another, but by a chance of one
+ * in 2^64. Not against forgery. FNV-1a (Fowler, Noll, Vo; RFC 9923).
  */
 #ifndef BASE_DIGEST_H
 #define BASE_DIGEST_H

@@ -18,8 +18,8 @@ struct file_text {
  * zeroed, and released in any case. */
 ps_result file_read(const char *path, struct file_text *text, struct error *error);
 
-/* The same for a file that a scene names: a regular one of at most `most` bytes, and where `folder` is
- * not NULL, one that lies in that folder (input_file_open). */
+/* The same for a file that a scene names: a regular one of at most `most` bytes, and where `folder`
+ * is not NULL, one that lies in that folder (input_file_open). */
 ps_result file_read_regular(const char *path, const char *folder, size_t most,
                             struct file_text *text, struct error *error);
 

@@ -1,8 +1,8 @@
 /* input_file.c: see input_file.h.
  *
- * In a restricted folder the path is resolved first, and what comes out is opened component by component
- * from the folder down, no step of which follows a link. So a link that is put there between the two
- * leads to an error and not out of the folder.
+ * In a restricted folder the path is resolved first, and what comes out is opened component by
+ * component from the folder down, no step of which follows a link. So a link that is put there
+ * between the two leads to an error and not out of the folder.
  */
 #include "base/input_file.h"
 

@@ -231,7 +231,8 @@ static bool read_unit(const char *digits, size_t left, uint32_t *unit)
     return true;
 }
 
-/* The character of an escape \uXXXX, or of two that are a surrogate pair; what follows `u`. Bytes used, or 0. */
+/* The character of an escape \uXXXX, or of two that are a surrogate pair; what follows `u`. Bytes
+ * used, or 0. */
 static size_t read_code(const char *text, size_t left, uint32_t *code)
 {
     uint32_t low;

@@ -1,8 +1,8 @@
 /* json_reader.h: reads JSON (RFC 8259) into a tree that refers to the text.
  *
- * Strict: no comments, no trailing commas. Nesting up to JSON_DEPTH, values up to JSON_VALUES. Strings and keys stay as
- * they are in the text, escapes included, and point into it. A tree can be written anew, with parts left out, replaced or
- * added.
+ * Strict: no comments, no trailing commas. Nesting up to JSON_DEPTH, values up to JSON_VALUES.
+ * Strings and keys stay as they are in the text, escapes included, and point into it. A tree can be
+ * written anew, with parts left out, replaced or added.
  */
 #ifndef BASE_JSON_READER_H
 #define BASE_JSON_READER_H
@@ -49,8 +49,8 @@ struct json *json_member(const struct json *object, const char *name);
 /* NULL where `array` is NULL, no array or shorter. */
 struct json *json_element(const struct json *array, size_t index);
 
-/* The string without its escapes, NUL-terminated; NULL where it is out of memory, holds U+0000, or an escape
- * that makes no sense. The caller frees it. Bytes are not judged: see utf8_is_valid. */
+/* The string without its escapes, NUL-terminated; NULL where it is out of memory, holds U+0000, or
+ * an escape that makes no sense. The caller frees it. Bytes are not judged: see utf8_is_valid. */
 char *json_unescape(const struct json_text *text);
 
 bool json_is(const struct json_text *text, const char *expected);

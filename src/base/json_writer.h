@@ -8,7 +8,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Zeroed but for the stream, and `compact`: at the start. Errors of the stream are the caller's to find. */
+/* Zeroed but for the stream, and `compact`: at the start. Errors of the stream are the caller's to
+ * find. */
 struct json_writer {
     FILE *stream;
     int depth;

@@ -9,7 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Once it is exceeded, an eighth of the budget is made free, so that not every new block asks for an old one. */
+/* Once it is exceeded, an eighth of the budget is made free, so that not every new block asks for
+ * an old one. */
 #define KEPT 0.875
 
 struct mapped_budget {
@@ -55,7 +56,8 @@ double mapped_budget_to_come(const struct mapped_budget *budget)
     return most > held ? most - held : 0.0;
 }
 
-/* --- files ----------------------------------------------------------------------------------------- */
+/* --- files
+ * ----------------------------------------------------------------------------------------- */
 
 static size_t block_count(const struct mapped_file *file)
 {
@@ -139,7 +141,8 @@ void mapped_file_close(struct mapped_file *file)
     release(file);
 }
 
-/* --- the clock ------------------------------------------------------------------------------------- */
+/* --- the clock
+ * ------------------------------------------------------------------------------------- */
 
 static void give_back(const struct mapped_file *file, size_t block)
 {

@@ -1,12 +1,15 @@
-/* mapped_file.h: files that are read where they are looked at, and of which memory holds no more than was agreed.
+/* mapped_file.h: files that are read where they are looked at, and of which memory holds no more
+ * than was agreed.
  *
- * A file is mapped (mmap(2)): the system reads pages when they are first looked at. Which blocks were looked at lately is
- * marked, and when the files of a budget hold more than it, those that were not are given back, as the clock algorithm
- * chooses them (Corbato, "A paging experiment with the Multics system", 1969). Who looks at what is there needs no lock:
- * what is given back under its eyes is read again. Not a cache of read blocks, whose every look-up would have to lock or
+ * A file is mapped (mmap(2)): the system reads pages when they are first looked at. Which blocks
+ * were looked at lately is marked, and when the files of a budget hold more than it, those that
+ * were not are given back, as the clock algorithm chooses them (Corbato, "A paging experiment with
+ * the Multics system", 1969). Who looks at what is there needs no lock: what is given back under
+ * its eyes is read again. Not a cache of read blocks, whose every look-up would have to lock or
  * count references.
  *
- * A file must not become shorter as long as it is mapped (SIGBUS); one that is replaced (output_file.h) stays as it was.
+ * A file must not become shorter as long as it is mapped (SIGBUS); one that is replaced
+ * (output_file.h) stays as it was.
  */
 #ifndef BASE_MAPPED_FILE_H
 #define BASE_MAPPED_FILE_H
@@ -24,7 +27,8 @@
 /* Of several files, which it must outlive. Any thread. */
 struct mapped_budget;
 
-/* `bytes`: how much of the files may lie in memory, but for a block of each thread. NULL when out of memory. */
+/* `bytes`: how much of the files may lie in memory, but for a block of each thread. NULL when out
+ * of memory. */
 struct mapped_budget *mapped_budget_create(double bytes);
 void mapped_budget_destroy(struct mapped_budget *budget);
 
@@ -44,7 +48,8 @@ struct mapped_file {
     struct mapped_file *next; /* of the budget's */
 };
 
-/* NULL with a reason that starts in lower case and does not name the path: PS_ERROR_IO, PS_ERROR_MEMORY. */
+/* NULL with a reason that starts in lower case and does not name the path: PS_ERROR_IO,
+ * PS_ERROR_MEMORY. */
 struct mapped_file *mapped_file_open(const char *path, struct mapped_budget *budget,
                                      struct error *error);
 void mapped_file_close(struct mapped_file *file);

@@ -95,8 +95,9 @@ static ps_result open_temporary(struct output_file *file, struct error *error)
                      directory_length ? file->target : ".", strerror(errno));
 }
 
-/* Fails with EEXIST where the name was taken: of all calls link(2) alone asks and acts at once on every system. Where
- * the file system has no links, a name that is taken in this very moment is lost. */
+/* Fails with EEXIST where the name was taken: of all calls link(2) alone asks and acts at once on
+ * every system. Where the file system has no links, a name that is taken in this very moment is
+ * lost. */
 static bool put_new(const struct output_file *file)
 {
     if (link(file->temporary, file->target) == 0) {

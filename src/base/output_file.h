@@ -19,8 +19,8 @@ struct output_file {
  * pipes, sockets, directories and read-only files are refused. */
 ps_result output_file_open(struct output_file *file, const char *path, struct error *error);
 
-/* Starts a file that takes the place of no other: PS_ERROR_INVALID where there is something of that name, here or, if
- * it came in between, at the commit. */
+/* Starts a file that takes the place of no other: PS_ERROR_INVALID where there is something of that
+ * name, here or, if it came in between, at the commit. */
 ps_result output_file_open_new(struct output_file *file, const char *path, struct error *error);
 
 /* Writes `size` bytes at `offset` from the start. */

@@ -56,12 +56,13 @@ static void restore_denormals(floating_point_mode before)
 #define PAUSE() ((void)0)
 #endif
 
-/* Longer than most pauses between the loops of a pass, shorter than what a scheduler gives to others. */
+/* Longer than most pauses between the loops of a pass, shorter than what a scheduler gives to
+ * others. */
 #define SPIN_NANOSECONDS 50000
 
-/* `lock` guards all but the atomics. Helpers enter a loop under the lock while it is open; the caller
- * closes it when no index is left and waits for those inside alone, so that a helper that a busy
- * machine has not woken yet holds nobody up. */
+/* `lock` guards all but the atomics. Helpers enter a loop under the lock while it is open; the
+ * caller closes it when no index is left and waits for those inside alone, so that a helper that a
+ * busy machine has not woken yet holds nobody up. */
 struct workers {
     uint32_t helper_count;
     pthread_t *helpers;

@@ -32,8 +32,8 @@ struct suggestion param_suggest(const struct param_table *table, const char *nam
  * error the state is unchanged. */
 ps_result param_set(const ps_param *row, void *state, const char *text, struct error *error);
 
-/* Sets every parameter that has a default; `state` must be zeroed. Whole numbers of samples (PS_PARAM_QUALITY) are
- * multiplied by `effort`, within what the row allows. */
+/* Sets every parameter that has a default; `state` must be zeroed. Whole numbers of samples
+ * (PS_PARAM_QUALITY) are multiplied by `effort`, within what the row allows. */
 ps_result param_set_defaults(const struct param_table *table, void *state, double effort,
                              struct error *error);
 

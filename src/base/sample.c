@@ -6,8 +6,8 @@
 /* The four dimensions of a point: a vector register of nearly all processors. */
 typedef uint32_t lanes __attribute__((vector_size(16)));
 
-/* What four columns of four dimensions sum up to (exclusive or), for each choice of them, the first by the
- * highest bit. */
+/* What four columns of four dimensions sum up to (exclusive or), for each choice of them, the first
+ * by the highest bit. */
 #define SUM(choice, a, b, c, d)                                                                    \
     (((choice)&8 ? (a) : 0) ^ ((choice)&4 ? (b) : 0) ^ ((choice)&2 ? (c) : 0) ^                    \
      ((choice)&1 ? (d) : 0))
@@ -28,8 +28,9 @@ typedef uint32_t lanes __attribute__((vector_size(16)));
 
 /* Direction numbers of the first four Sobol dimensions, from the initial numbers of Joe and Kuo
  * 2008, "Constructing Sobol sequences with better two-dimensional projections": column i of
- * dimensions 0 to 3 in line i, which lie together so that one operation serves all four. Their bits run in
- * reversed order, in which they are scrambled. Summed up by fours, a point takes 8 steps, not 32. */
+ * dimensions 0 to 3 in line i, which lie together so that one operation serves all four. Their bits
+ * run in reversed order, in which they are scrambled. Summed up by fours, a point takes 8 steps,
+ * not 32. */
 static const lanes sobol_sums[8][16] = {
     CHOICES(0x00000001, 0x00000001, 0x00000001, 0x00000001, 0x00000002, 0x00000003, 0x00000003,
             0x00000003, 0x00000004, 0x00000005, 0x00000006, 0x00000004, 0x00000008, 0x0000000f,
@@ -92,8 +93,8 @@ static PS_INLINED uint32_t scramble_reversed(uint32_t x, uint32_t seed)
     return x ^ x * 0x53a22864u;
 }
 
-/* The point of the four Sobol sequences, as 32-bit fractions. Their bits run in reversed order, and so do
- * those of the index. */
+/* The point of the four Sobol sequences, as 32-bit fractions. Their bits run in reversed order, and
+ * so do those of the index. */
 static PS_INLINED lanes sobol(uint32_t index)
 {
     lanes fractions = sobol_sums[0][index >> 28];

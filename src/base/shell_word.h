@@ -7,7 +7,8 @@
 /* Writes the word, in quotes unless it needs none. */
 void shell_word_print(FILE *stream, const char *word);
 
-/* The same for a path, which must not look like an option: "./-x.psd". Standard input, "-", is none. */
+/* The same for a path, which must not look like an option: "./-x.psd". Standard input, "-", is
+ * none. */
 void shell_word_print_path(FILE *stream, const char *path);
 
 #endif

@@ -72,7 +72,8 @@ static const struct option *find_letter(const struct command *command, char lett
     return NULL;
 }
 
-/* Of the command, written alone: no value of another option, which begins with '-' for a number at most. */
+/* Of the command, written alone: no value of another option, which begins with '-' for a number at
+ * most. */
 static bool is_option(const struct command *command, const char *word)
 {
     if (word[0] != '-' || !word[1])

@@ -65,7 +65,8 @@ void help_print(const struct command *command);
 void print_error(const char *message);
 void print_warning(const char *message);
 
-/* What a function of psplat.h says; one with a place says itself what it is. Nothing where it has no message. */
+/* What a function of psplat.h says; one with a place says itself what it is. Nothing where it has
+ * no message. */
 void print_failure(const psplat_error *error);
 
 /* Status of a command that ended so: bad input is the user's to mend. */

@@ -1,4 +1,5 @@
-/* command_render.c: psplat render: a scene becomes a picture, by psplat.h as any other program makes one. */
+/* command_render.c: psplat render: a scene becomes a picture, by psplat.h as any other program
+ * makes one. */
 #include "cli/default_path.h"
 #include "cli/option_rows.h"
 #include "cli/progress.h"
@@ -45,7 +46,8 @@ struct render_command {
     struct viewer *viewer; /* NULL: none */
 };
 
-/* --- the command line --------------------------------------------------------------------------------- */
+/* --- the command line
+ * --------------------------------------------------------------------------------- */
 
 static bool set(struct render_command *command, const char *option, const char *value)
 {
@@ -118,10 +120,11 @@ static bool choose_outputs(struct render_command *command)
     return command->has_checkpoint;
 }
 
-/* --- signals ------------------------------------------------------------------------------------------ */
+/* --- signals
+ * ------------------------------------------------------------------------------------------ */
 
-/* A signal handler can reach nothing else: the only variables of the program that are not constant. The first is the
- * number of the signal. */
+/* A signal handler can reach nothing else: the only variables of the program that are not constant.
+ * The first is the number of the signal. */
 static volatile sig_atomic_t interrupted, write_now;
 
 static void handle_signals(void (*handler)(int signal_number))
@@ -134,8 +137,8 @@ static void handle_signals(void (*handler)(int signal_number))
     sigaction(SIGTERM, &action, NULL);
 }
 
-/* The next signal, whichever of the two it is, ends the process. Only what is safe in a handler: write() is,
- * and there is nobody to tell if it fails. */
+/* The next signal, whichever of the two it is, ends the process. Only what is safe in a handler:
+ * write() is, and there is nobody to tell if it fails. */
 static void interrupt(int signal_number)
 {
     static const char message[] = "\npsplat: interrupted: finishing this batch, then writing the "
@@ -152,7 +155,8 @@ static void ask_for_picture(int signal_number)
     write_now = 1;
 }
 
-/* --- what the render tells and asks ------------------------------------------------------------------- */
+/* --- what the render tells and asks
+ * ------------------------------------------------------------------- */
 
 static void show_message(void *user, int kind, const char *message)
 {
@@ -197,7 +201,8 @@ static void show_picture(void *user, psplat_picture *picture)
     viewer_show(command->viewer, picture, false);
 }
 
-/* --- the render --------------------------------------------------------------------------------------- */
+/* --- the render
+ * --------------------------------------------------------------------------------------- */
 
 static ps_result render(struct render_command *command, psplat_error *error)
 {
@@ -236,8 +241,8 @@ static ps_result render_and_show(struct render_command *command, psplat_error *e
     return result;
 }
 
-/* What has a place is the user's to mend, also where it is a file that can't be read. Where another process tells what became
- * of the job, this one has no message. */
+/* What has a place is the user's to mend, also where it is a file that can't be read. Where another
+ * process tells what became of the job, this one has no message. */
 static int status_of_render(ps_result result, const psplat_error *error)
 {
     if (result != PS_CANCELLED)

@@ -1,12 +1,14 @@
-/* progress.h: tells how far a render is: by a bar, by lines for people, or by lines of JSON for programs.
+/* progress.h: tells how far a render is: by a bar, by lines for people, or by lines of JSON for
+ * programs.
  *
- * Bar and plain lines go to standard error, as all messages do; lines of JSON, one object each, to standard output,
- * which has nothing else then:
+ * Bar and plain lines go to standard error, as all messages do; lines of JSON, one object each, to
+ * standard output, which has nothing else then:
  *
  *     {"stage": "indirect light", "fraction": 0.25, "passes": 4, "error": 0.021, "seconds": 12.5,
  *      "seconds_left": 37.5, "bytes": 104857600}
  *
- * `error` and `seconds_left` are null while they are not known. The last one has the stage "done" and fraction 1.
+ * `error` and `seconds_left` are null while they are not known. The last one has the stage "done"
+ * and fraction 1.
  */
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H

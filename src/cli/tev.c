@@ -16,7 +16,8 @@
 
 enum packet_kind { CREATE_IMAGE = 4, UPDATE_IMAGE = 6 };
 
-/* --- address -------------------------------------------------------------------------------------- */
+/* --- address
+ * -------------------------------------------------------------------------------------- */
 
 static bool is_port(const char *text)
 {
@@ -50,7 +51,8 @@ bool tev_parse_address(const char *text, struct tev_address *address)
     return true;
 }
 
-/* --- connection ----------------------------------------------------------------------------------- */
+/* --- connection
+ * ----------------------------------------------------------------------------------- */
 
 /* Waits for a connection under way; the reason where it fails. */
 static int finish_connecting(int connection)
@@ -121,7 +123,8 @@ static ps_result send_bytes(int connection, const char *bytes, size_t count, str
     return PS_OK;
 }
 
-/* --- packets -------------------------------------------------------------------------------------- */
+/* --- packets
+ * -------------------------------------------------------------------------------------- */
 
 /* A packet that grows; `bytes` is NULL when out of memory. */
 struct packet {

@@ -31,7 +31,8 @@ bool viewer_parse(const char *value, struct tev_address *address)
     return good;
 }
 
-/* --- the thread ----------------------------------------------------------------------------------- */
+/* --- the thread
+ * ----------------------------------------------------------------------------------- */
 
 /* The error has a text where that fails. */
 static void send_picture(const struct viewer *viewer, const psplat_picture *picture,
@@ -80,7 +81,8 @@ static void *send_pictures(void *user)
     return NULL;
 }
 
-/* --- the caller's thread -------------------------------------------------------------------------- */
+/* --- the caller's thread
+ * -------------------------------------------------------------------------- */
 
 struct viewer *viewer_create(const struct tev_address *address, const char *name, bool has_display)
 {

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Crops a window of a picture to another one of it that lies in this one; `layer`'s planes alone. */
+/* Crops a window of a picture to another one of it that lies in this one; `layer`'s planes
+ * alone. */
 static void crop_to(struct image *image, const struct layer *layer, const struct image *part)
 {
     const struct picture_window *window = &image->window;

@@ -18,9 +18,9 @@ struct picture_pair {
     struct workers *workers;       /* for metrics; owned, NULL: the caller alone */
 };
 
-/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes or places in whole pictures differ;
- * but of two windows of one picture that lie in each other, the larger is cropped to the smaller. Starts a worker for each
- * processor. */
+/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes or places in
+ * whole pictures differ; but of two windows of one picture that lie in each other, the larger is
+ * cropped to the smaller. Starts a worker for each processor. */
 ps_result picture_pair_read(struct picture_pair *pair, const char *reference_path,
                             const char *test_path, const char *layer, struct error *error);
 void picture_pair_release(struct picture_pair *pair);
@@ -29,8 +29,8 @@ void picture_pair_release(struct picture_pair *pair);
 ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, struct error *error);
 
 /* Leaves out the pixels where a channel of the reference is `bound` or more, and the eight beside
- * each: a light in the picture, with its smooth edge, would otherwise dominate the error of all that it
- * lights. Fails where nothing is left. The pictures must be finite. */
+ * each: a light in the picture, with its smooth edge, would otherwise dominate the error of all
+ * that it lights. Fails where nothing is left. The pictures must be finite. */
 ps_result picture_pair_leave_out(struct picture_pair *pair, double bound, struct error *error);
 
 /* Fails where a picture holds NaN or infinities, and says how many and where the first is. */

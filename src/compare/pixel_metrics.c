@@ -125,8 +125,8 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Nearest rank: the smallest difference that at least 99 % of the pixels don't exceed. Pixels that are left
- * out come first. */
+/* Nearest rank: the smallest difference that at least 99 % of the pixels don't exceed. Pixels that
+ * are left out come first. */
 ps_result pixel_p99(const struct picture_pair *pair, double *numbers, struct error *error)
 {
     size_t pixels = pair->width * pair->height;

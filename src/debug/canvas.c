@@ -51,7 +51,8 @@ void canvas_disc(struct canvas *canvas, float x, float y, float radius, struct c
     canvas_set(canvas, column, row, colour);
 }
 
-/* Narrows the part [*begin, *end] of a line to where `at + part * step` lies in 0..size (Liang and Barsky 1984). */
+/* Narrows the part [*begin, *end] of a line to where `at + part * step` lies in 0..size (Liang and
+ * Barsky 1984). */
 static void clip(float at, float step, float size, float *begin, float *end)
 {
     if (step == 0.0f) {

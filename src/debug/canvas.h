@@ -30,7 +30,8 @@ void canvas_disc(struct canvas *canvas, float x, float y, float radius, struct c
 void canvas_line(struct canvas *canvas, float from_x, float from_y, float to_x, float to_y,
                  struct colour colour);
 
-/* One line of text, its upper left corner at (x, y), in letters of font.h, `scale` times as large. */
+/* One line of text, its upper left corner at (x, y), in letters of font.h, `scale` times as
+ * large. */
 void canvas_text(struct canvas *canvas, long x, long y, size_t scale, struct colour colour,
                  const char *text);
 size_t canvas_text_width(size_t scale, const char *text);

@@ -1,7 +1,7 @@
 /* debug.h: pictures of what goes on inside of a render, after the figures of Hoet 2014.
  *
- * Each view looks at the first pass, through the centres of the pixels, with the strategies that the
- * render would use; the driver does the work, and a view only looks (render_inspect).
+ * Each view looks at the first pass, through the centres of the pixels, with the strategies that
+ * the render would use; the driver does the work, and a view only looks (render_inspect).
  */
 #ifndef DEBUG_DEBUG_H
 #define DEBUG_DEBUG_H
@@ -37,7 +37,8 @@ struct debug_request {
 /* Fills in view and part; PS_ERROR_INVALID, and what there is, for a name that is none. */
 ps_result debug_find(const char *name, struct debug_request *request, struct error *error);
 
-/* Draws into `canvas`, which the caller releases; empty on an error. The rest as in render_inspect. */
+/* Draws into `canvas`, which the caller releases; empty on an error. The rest as in
+ * render_inspect. */
 ps_result debug_draw(const struct debug_request *request, const struct scene *scene,
                      struct render_settings *settings, const struct render_callbacks *callbacks,
                      struct statistics *statistics, struct canvas *canvas, struct error *error);

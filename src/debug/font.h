@@ -9,8 +9,8 @@
 #define FONT_HEIGHT 7
 #define FONT_ADVANCE 6 /* from a letter to the next */
 
-/* Whether a letter's pixel is set, column < FONT_WIDTH, row < FONT_HEIGHT from the top. Small letters
- * look like capitals; what the font lacks looks like '?'. */
+/* Whether a letter's pixel is set, column < FONT_WIDTH, row < FONT_HEIGHT from the top. Small
+ * letters look like capitals; what the font lacks looks like '?'. */
 bool font_pixel(char letter, size_t column, size_t row);
 
 #endif

@@ -1,4 +1,5 @@
-/* pixel_light.h: which photons of a pass light a pixel by their splats, and how much of its irradiance each brings. */
+/* pixel_light.h: which photons of a pass light a pixel by their splats, and how much of its
+ * irradiance each brings. */
 #ifndef DEBUG_PIXEL_LIGHT_H
 #define DEBUG_PIXEL_LIGHT_H
 
@@ -23,8 +24,9 @@ struct pixel_light {
     uint64_t photon_count; /* of the pass */
 };
 
-/* By each splat alone, its depth map included. Light from nearby, for which estimators cast rays, is that of splats, too.
- * PS_ERROR_INVALID where the pixel is outside of the picture or sees no surface. Released in any case. */
+/* By each splat alone, its depth map included. Light from nearby, for which estimators cast rays,
+ * is that of splats, too. PS_ERROR_INVALID where the pixel is outside of the picture or sees no
+ * surface. Released in any case. */
 ps_result pixel_light_find(struct render *render, size_t x, size_t y, struct pixel_light *light,
                            struct error *error);
 void pixel_light_release(struct pixel_light *light);

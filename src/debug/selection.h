@@ -1,8 +1,9 @@
 /* selection.h: a fixed number out of a stream of things whose length nobody knows yet.
  *
  * Each thing gets a hash of its place in the stream, and those with the smallest stay (bottom-k
- * sampling; Cohen and Kaplan 2007, "Summarizing data using bottom-k sketches"). So every thing is as
- * likely, memory goes by what is kept, and a larger selection holds a smaller one of the same stream.
+ * sampling; Cohen and Kaplan 2007, "Summarizing data using bottom-k sketches"). So every thing is
+ * as likely, memory goes by what is kept, and a larger selection holds a smaller one of the same
+ * stream.
  */
 #ifndef DEBUG_SELECTION_H
 #define DEBUG_SELECTION_H

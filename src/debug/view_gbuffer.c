@@ -1,5 +1,5 @@
-/* view_gbuffer.c: what each pixel sees, as the estimators get it (Hoet 2014, figure 8): one picture of
- * all layers with their names, or one layer by itself. Black where nothing is seen.
+/* view_gbuffer.c: what each pixel sees, as the estimators get it (Hoet 2014, figure 8): one picture
+ * of all layers with their names, or one layer by itself. Black where nothing is seen.
  */
 #include "debug/debug.h"
 #include "debug/font.h"

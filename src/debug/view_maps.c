@@ -1,10 +1,11 @@
-/* view_maps.c: single splats with their depth maps, before anything is summed or normalized (Hoet 2014,
- * figure 14): above, what some splats light in the picture, each with its number; below, their maps.
+/* view_maps.c: single splats with their depth maps, before anything is summed or normalized (Hoet
+ * 2014, figure 14): above, what some splats light in the picture, each with its number; below,
+ * their maps.
  *
  * In the picture each splat gives its colour times the cosine, the same over all of its disc and
- * whatever its size, so that the sharp shadows of small and large ones can be told. In a map grey is
- * depth, white where it is nearest to the light; blue texels met nothing, and those outside of the disc,
- * which light nothing, are dimmed.
+ * whatever its size, so that the sharp shadows of small and large ones can be told. In a map grey
+ * is depth, white where it is nearest to the light; blue texels met nothing, and those outside of
+ * the disc, which light nothing, are dimmed.
  */
 #include "debug/backdrop.h"
 #include "debug/debug.h"
@@ -70,8 +71,8 @@ static struct colour dim(struct colour colour)
     return (struct colour){colour.r / 3, colour.g / 3, colour.b / 3};
 }
 
-/* Draws a map of resolution^2 depths, a pixel a texel. The range of greys is the depths', but no less
- * than the splat's radius, so that what is flat looks flat. */
+/* Draws a map of resolution^2 depths, a pixel a texel. The range of greys is the depths', but no
+ * less than the splat's radius, so that what is flat looks flat. */
 static void draw_texels(const float *depths, uint32_t resolution, float half_width, uint8_t *rgb)
 {
     static const struct colour nothing = {40, 70, 190};

@@ -1,6 +1,6 @@
 /* view_overlap.c: how many splats light each pixel, as a heat map with its scale (Hoet 2014, figure
- * 18). Rendering time goes by this number, and noise by one over its root. The estimator runs as in a
- * render, with a filter that counts (kernel_profile_count).
+ * 18). Rendering time goes by this number, and noise by one over its root. The estimator runs as in
+ * a render, with a filter that counts (kernel_profile_count).
  */
 #include "debug/debug.h"
 #include "debug/legend.h"

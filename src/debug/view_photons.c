@@ -64,8 +64,8 @@ static struct extent largest_of(const struct selection *dots)
     return largest;
 }
 
-/* In pixels: the fewer dots, the larger, so that they cover a tenth of the picture, but no more than a
- * point should be. */
+/* In pixels: the fewer dots, the larger, so that they cover a tenth of the picture, but no more
+ * than a point should be. */
 static float radius_of(size_t dots, const struct canvas *canvas)
 {
     float area = 0.1f * (float)(canvas->width * canvas->height) / (float)(dots > 0 ? dots : 1);

@@ -1,5 +1,6 @@
-/* view_pixel.c: where the light of one pixel comes from: the photons whose splats light it, each joined with it by a line,
- * the brightest on top. Photons that something hides from the camera have a dimmed line and no dot.
+/* view_pixel.c: where the light of one pixel comes from: the photons whose splats light it, each
+ * joined with it by a line, the brightest on top. Photons that something hides from the camera have
+ * a dimmed line and no dot.
  */
 #include "debug/backdrop.h"
 #include "debug/debug.h"

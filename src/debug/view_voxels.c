@@ -1,7 +1,8 @@
-/* view_voxels.c: the cells that a stratification sorts photons into, each in a colour of its own (Hoet
- * 2014, figure 9). An octree's leaves, and the cells of a grid that merge with their neighbours, follow
- * from the photons of the pass. Where a number of cells is asked for, and where the stratification has
- * no cells, they are those of a grid by itself: cubes, that many across the sphere around the scene.
+/* view_voxels.c: the cells that a stratification sorts photons into, each in a colour of its own
+ * (Hoet 2014, figure 9). An octree's leaves, and the cells of a grid that merge with their
+ * neighbours, follow from the photons of the pass. Where a number of cells is asked for, and where
+ * the stratification has no cells, they are those of a grid by itself: cubes, that many across the
+ * sphere around the scene.
  */
 #include "debug/debug.h"
 #include "debug/id_colour.h"

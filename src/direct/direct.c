@@ -144,7 +144,8 @@ static void draw_runs(const struct lighting *lighting, const struct light_runs *
     to->choices = all.choices ? draws->choices : NULL;
 }
 
-/* Irradiance of the points of a tile, summed over shadow rays: of all lights, and of those that cast hard shadows. */
+/* Irradiance of the points of a tile, summed over shadow rays: of all lights, and of those that
+ * cast hard shadows. */
 struct sums {
     ps_rgb all[PS_TILE_PIXELS], hard[PS_TILE_PIXELS];
 };
@@ -165,7 +166,8 @@ static void add_samples(const struct receivers *receivers, uint64_t seed,
     }
 }
 
-/* Puts means over `count` shadow rays in their lanes: of what `sums` has more than `before` (NULL: nothing). */
+/* Puts means over `count` shadow rays in their lanes: of what `sums` has more than `before` (NULL:
+ * nothing). */
 static void put_means(const ps_points *points, const ps_rgb *sums, const ps_rgb *before,
                       uint32_t count, ps_rgb lanes[PS_TILE_PIXELS])
 {

@@ -1,7 +1,8 @@
 /* direct.h: light straight from the lights, by shadow rays or maps; and what surfaces and sky emit.
  *
- * Each light is sampled once for each point, or some of many (receivers.h); lights without a size need no random numbers.
- * Where gloss can also find a light by scattering, both ways are weighed (Veach and Guibas 1995).
+ * Each light is sampled once for each point, or some of many (receivers.h); lights without a size
+ * need no random numbers. Where gloss can also find a light by scattering, both ways are weighed
+ * (Veach and Guibas 1995).
  */
 #ifndef DIRECT_DIRECT_H
 #define DIRECT_DIRECT_H
@@ -27,8 +28,8 @@ struct light_numbers {
     const uint64_t *indices; /* one for each point */
 };
 
-/* Radiance that the surfaces hit reflect back along the rays, of light straight from the lights: of those of some groups,
- * as in ps_host.direct_radiance_of. */
+/* Radiance that the surfaces hit reflect back along the rays, of light straight from the lights: of
+ * those of some groups, as in ps_host.direct_radiance_of. */
 void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const ps_hit *hits,
                      const uint8_t *groups, size_t n, const struct light_numbers *numbers,
                      ps_rgb *radiance);
@@ -45,9 +46,10 @@ struct light_runs {
     uint8_t of_lane[PS_TILE_PIXELS]; /* which run a lane has */
 };
 
-/* Fills in the direct irradiance of a tile's lanes: the mean of `samples` shadow rays for each light that
- * has a size, with as many numbers of their runs. And, where the G-buffer has room for it, that of the second half of
- * them alone, what of both comes from lights that cast hard shadows, and what the rays met. */
+/* Fills in the direct irradiance of a tile's lanes: the mean of `samples` shadow rays for each
+ * light that has a size, with as many numbers of their runs. And, where the G-buffer has room for
+ * it, that of the second half of them alone, what of both comes from lights that cast hard shadows,
+ * and what the rays met. */
 void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t tile,
                        uint64_t seed, const struct light_runs *runs, uint32_t samples);
 

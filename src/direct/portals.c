@@ -5,7 +5,8 @@
 #include <psplat/math.h>
 #include <string.h>
 
-/* The more of a hemisphere the portals take up, the more rays go by the sky: all of them from 1 / WIDE_OPEN on. */
+/* The more of a hemisphere the portals take up, the more rays go by the sky: all of them from 1 /
+ * WIDE_OPEN on. */
 #define WIDE_OPEN 2.0f
 #define BY_SKY 0.25f        /* share of the rays */
 #define BY_SKY_PICTURE 0.5f /* where the sky is uneven, so that portals miss what is bright in it */
@@ -119,8 +120,9 @@ void portals_add(struct portals *portals, const struct portal_bins *bins)
         portals->visibility[cell][portal] = 1.0f;
 }
 
-/* About the light through each portal: area times the cosines at both ends over the square of the distance, none of
- * which is less than parts of the portal may have, so that only portals behind a surface have 0. The sum. */
+/* About the light through each portal: area times the cosines at both ends over the square of the
+ * distance, none of which is less than parts of the portal may have, so that only portals behind a
+ * surface have 0. The sum. */
 static float weigh(const struct portals *portals, ps_vec3 position, ps_vec3 normal,
                    float weights[PORTALS_MOST])
 {

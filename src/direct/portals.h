@@ -1,17 +1,21 @@
 /* portals.h: the openings through which the points of a room see the sky.
  *
- * In a room, a ray that is drawn by the sky's radiance or by the cosine at a surface meets a wall nearly always. Portals are
- * rectangles that windows fill; rays drawn through them get out (Bitterli, Novak and Jarosz 2015, "Portal-masked
- * environment map sampling"). There the user places them; here they are learnt (importance/portal_search.h), as rectangles on
- * the faces of a box around what is seen. A ray from inside of a box leaves it at one point, so where a window lies in a
- * face, all points see it in the same rectangle (as reflections in a room are looked up in a box around it, Lagarde and
- * Zanuttini 2012, "Local image-based lighting with parallax-corrected cubemaps"), and each ray has one portal or none:
+ * In a room, a ray that is drawn by the sky's radiance or by the cosine at a surface meets a wall
+ * nearly always. Portals are rectangles that windows fill; rays drawn through them get out
+ * (Bitterli, Novak and Jarosz 2015, "Portal-masked environment map sampling"). There the user
+ * places them; here they are learnt (importance/portal_search.h), as rectangles on the faces of a
+ * box around what is seen. A ray from inside of a box leaves it at one point, so where a window
+ * lies in a face, all points see it in the same rectangle (as reflections in a room are looked up
+ * in a box around it, Lagarde and Zanuttini 2012, "Local image-based lighting with
+ * parallax-corrected cubemaps"), and each ray has one portal or none:
  *
- *     p(w) = a p_sky(w) + (1 - a) P(k | x) r^2 / (A_k cos),    k: the portal that x sees along w, r: its distance
+ *     p(w) = a p_sky(w) + (1 - a) P(k | x) r^2 / (A_k cos)
  *
- * P is about in proportion to the light that x gets through the portal: its solid angle, the cosine at the surface, and how
- * much of it is seen from that part of the box, which is learnt too. Whatever was not learnt is found by p_sky, at 1/a times
- * its weight (defensive sampling, Hesterberg 1995).
+ * with k the portal that x sees along w, and r its distance.
+ * P is about in proportion to the light that x gets through the portal: its solid angle, the cosine
+ * at the surface, and how much of it is seen from that part of the box, which is learnt too.
+ * Whatever was not learnt is found by p_sky, at 1/a times its weight (defensive sampling,
+ * Hesterberg 1995).
  *
  * Lengths are in scene units, pdfs by solid angle. Constant once made; any thread may read it.
  */
@@ -27,8 +31,8 @@ enum {
     PORTAL_CELL_COUNT = PORTAL_CELLS * PORTAL_CELLS * PORTAL_CELLS
 };
 
-/* A face of the box: across axis `axis` (0: x), the one on the side of +axis where `high`. Places on it are counted along
- * the next two axes. */
+/* A face of the box: across axis `axis` (0: x), the one on the side of +axis where `high`. Places
+ * on it are counted along the next two axes. */
 struct portal_face {
     uint32_t axis;
     bool high;
@@ -52,7 +56,8 @@ struct portals {
     ps_vec3 low, high; /* the box */
     size_t count;      /* of portals */
     struct portal_bins bins[PORTALS_MOST];
-    /* The same in the scene: middles, normals of the faces, areas, and radii of spheres that hold them. */
+    /* The same in the scene: middles, normals of the faces, areas, and radii of spheres that hold
+     * them. */
     float middle[3][PORTALS_MOST], normal[3][PORTALS_MOST];
     float area[PORTALS_MOST], radius[PORTALS_MOST];
     uint8_t portal_of[3][2][PORTAL_BINS]
@@ -78,8 +83,8 @@ struct portal_exit portals_exit(const struct portals *portals, ps_vec3 position,
 /* 1 + the portal by which it leaves; 0: by none. */
 uint32_t portals_at(const struct portals *portals, const struct portal_exit *exit);
 
-/* A direction into a portal, for a point of the box, by two numbers in [0, 1). `normal` as in light_sample: of a surface
- * that counts light by the cosine, or 0. False: it sees none. */
+/* A direction into a portal, for a point of the box, by two numbers in [0, 1). `normal` as in
+ * light_sample: of a surface that counts light by the cosine, or 0. False: it sees none. */
 bool portals_choose(const struct portals *portals, ps_vec3 position, ps_vec3 normal,
                     const float numbers[2], ps_vec3 *direction);
 

@@ -66,7 +66,8 @@ static ps_vec3 origin_of(const struct receivers *to, size_t i)
 
 /* --- shadow rays --- */
 
-/* The shadow ray from a receiver to a point of a light, and what arrives where nothing is in the way. */
+/* The shadow ray from a receiver to a point of a light, and what arrives where nothing is in the
+ * way. */
 static ps_rgb connect(const struct receivers *to, size_t i, const struct light_sample *sample,
                       ps_ray *ray)
 {
@@ -90,7 +91,8 @@ static void trace_lit(const struct lighting *lighting, const ps_ray *rays, size_
         lit[i] = blocked[i] ? 0.0f : 1.0f;
 }
 
-/* The share of the light that gets along each connection, by rays, or by the maps of lights that have them. */
+/* The share of the light that gets along each connection, by rays, or by the maps of lights that
+ * have them. */
 static void find_lit(const struct receivers *to, const struct connections *open, const ps_ray *rays,
                      float *lit)
 {
@@ -116,7 +118,8 @@ static void find_lit(const struct receivers *to, const struct connections *open,
         lit[places[i]] = traced[i];
 }
 
-/* Traces the connections, adds what they bring and forgets them. Those that bring nothing have no shadow ray. */
+/* Traces the connections, adds what they bring and forgets them. Those that bring nothing have no
+ * shadow ray. */
 static void trace_connections(const struct receivers *to, struct connections *connections,
                               ps_rgb *sums)
 {
@@ -196,7 +199,8 @@ static void sample_light(const struct receivers *to, const struct chosen *by, si
     trace_connections(to, &connections, sums);
 }
 
-/* A receiver samples a light that it drew, number `number` of those. `expected`: how often it draws it in the mean. */
+/* A receiver samples a light that it drew, number `number` of those. `expected`: how often it draws
+ * it in the mean. */
 static void add_connection(const struct receivers *to, size_t i, size_t number,
                            const struct light_choice *choice, float expected,
                            struct connections *connections, ps_rgb *sums)
@@ -251,8 +255,9 @@ static struct light_draws draws_of(const struct lighting *lighting)
     return (struct light_draws){most, all, lighting->light_threshold};
 }
 
-/* Traces what receivers `first` to before `end` have drawn: of each the first one, then of each the second one, and so on.
- * Draws come in the order of the tree, so these shadow rays go much the same way. */
+/* Traces what receivers `first` to before `end` have drawn: of each the first one, then of each the
+ * second one, and so on. Draws come in the order of the tree, so these shadow rays go much the same
+ * way. */
 static void trace_drawn(const struct receivers *to, size_t first, size_t end,
                         const struct light_draws *draws, const struct drawn_lights *drawn,
                         ps_rgb *sums)

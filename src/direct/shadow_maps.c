@@ -1,12 +1,13 @@
 /* shadow_maps.c: see shadow_maps.h.
  *
- * A map holds the distance along each ray, measured from where it starts, to what it meets first. The
- * four pixels around a point are compared with the point's own distance and weighed bilinearly, so that
- * shadows end softly within a pixel and converge to those of rays.
+ * A map holds the distance along each ray, measured from where it starts, to what it meets first.
+ * The four pixels around a point are compared with the point's own distance and weighed bilinearly,
+ * so that shadows end softly within a pixel and converge to those of rays.
  *
- * A pixel's ray passes the point at up to sqrt(2) pixels, where the point's surface may be nearer to the
- * light by tan(theta) times that; theta: between light and normal. So the tolerance is 1.5 pixels
- * * tan(theta), as for splats (bundle.h). A constant would either shadow slopes or leak at contacts.
+ * A pixel's ray passes the point at up to sqrt(2) pixels, where the point's surface may be nearer
+ * to the light by tan(theta) times that; theta: between light and normal. So the tolerance is 1.5
+ * pixels * tan(theta), as for splats (bundle.h). A constant would either shadow slopes or leak at
+ * contacts.
  */
 #include "direct/shadow_maps.h"
 
@@ -59,7 +60,8 @@ static size_t pixels_of(const struct shadow_maps *maps)
     return (size_t)maps->side * maps->side;
 }
 
-/* --- tracing ------------------------------------------------------------------------------------ */
+/* --- tracing
+ * ------------------------------------------------------------------------------------ */
 
 struct tracing {
     struct shadow_maps *maps;
@@ -101,7 +103,8 @@ static void trace_row_of_blocks(void *user, uint64_t index, uint32_t worker)
         trace_block(tracing, index / blocks, block * BLOCK, (uint32_t)(index % blocks) * BLOCK);
 }
 
-/* --- making them -------------------------------------------------------------------------------- */
+/* --- making them
+ * -------------------------------------------------------------------------------- */
 
 static size_t count_views(const struct scene *scene)
 {
@@ -164,7 +167,8 @@ size_t shadow_maps_bytes(const struct shadow_maps *maps)
     return maps->count * pixels_of(maps) * sizeof *maps->depths;
 }
 
-/* --- looking up --------------------------------------------------------------------------------- */
+/* --- looking up
+ * --------------------------------------------------------------------------------- */
 
 bool shadow_maps_hold(const struct shadow_maps *maps, size_t light)
 {

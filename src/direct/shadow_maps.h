@@ -1,9 +1,10 @@
 /* shadow_maps.h: which surfaces a light reaches, by depth maps instead of shadow rays.
  *
- * Williams 1978, "Casting curved shadows on curved surfaces", with percentage-closer filtering (Reeves,
- * Salesin and Cook 1987, "Rendering antialiased shadows with depth maps"). Points and spotlights have
- * maps in perspective, suns without an angle one in parallel that holds the scene. A light that has a
- * size is not seen from one place: a map would give it hard shadows, so it has none.
+ * Williams 1978, "Casting curved shadows on curved surfaces", with percentage-closer filtering
+ * (Reeves, Salesin and Cook 1987, "Rendering antialiased shadows with depth maps"). Points and
+ * spotlights have maps in perspective, suns without an angle one in parallel that holds the scene.
+ * A light that has a size is not seen from one place: a map would give it hard shadows, so it has
+ * none.
  */
 #ifndef DIRECT_SHADOW_MAPS_H
 #define DIRECT_SHADOW_MAPS_H
@@ -13,9 +14,9 @@
 
 struct shadow_maps;
 
-/* Traces maps of `side` pixels along each side, for all lights of the scene that can have them, on that
- * many threads; they do not depend on these. The scene must outlive them. PS_ERROR_MEMORY, with a
- * message; else to be destroyed. */
+/* Traces maps of `side` pixels along each side, for all lights of the scene that can have them, on
+ * that many threads; they do not depend on these. The scene must outlive them. PS_ERROR_MEMORY,
+ * with a message; else to be destroyed. */
 ps_result shadow_maps_create(const struct scene *scene, const struct trace *trace, uint32_t side,
                              struct workers *workers, struct shadow_maps **maps,
                              struct error *error);

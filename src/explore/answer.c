@@ -80,7 +80,8 @@ bool answer_message(struct MHD_Connection *connection, unsigned status, const ch
     return answer_json(connection, status, json_buffer_end(&buffer));
 }
 
-/* --- pictures ---------------------------------------------------------------------------------------- */
+/* --- pictures
+ * ---------------------------------------------------------------------------------------- */
 
 #define BLOCK_BYTES ((size_t)256 * 1024)
 
@@ -137,10 +138,11 @@ bool answer_map(struct MHD_Connection *connection, const struct shown_picture *s
     return send_response(connection, MHD_HTTP_OK, "application/octet-stream", response);
 }
 
-/* --- events ------------------------------------------------------------------------------------------ */
+/* --- events
+ * ------------------------------------------------------------------------------------------ */
 
-/* Server-sent events (https://html.spec.whatwg.org/#server-sent-events): the text of one at a time, made when the
- * reader has taken the last, so that a slow one misses states. */
+/* Server-sent events (https://html.spec.whatwg.org/#server-sent-events): the text of one at a time,
+ * made when the reader has taken the last, so that a slow one misses states. */
 struct event_stream {
     struct explorer *explorer;
     uint64_t serial; /* of the state that was sent last */

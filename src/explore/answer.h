@@ -20,8 +20,8 @@ bool answer_message(struct MHD_Connection *connection, unsigned status, const ch
 bool answer_bytes(struct MHD_Connection *connection, const char *type, const void *bytes,
                   size_t length);
 
-/* A layer of a picture; 404 where it has none of that name, or `shown` is NULL, to which it takes over the
- * reference. */
+/* A layer of a picture; 404 where it has none of that name, or `shown` is NULL, to which it takes
+ * over the reference. */
 bool answer_picture(struct MHD_Connection *connection, struct shown_picture *shown,
                     const char *layer);
 

@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- parameters of tables ---------------------------------------------------------------------------- */
+/* --- parameters of tables
+ * ---------------------------------------------------------------------------- */
 
 /* The control that a row asks for. A number with choices may be one of these words instead. */
 static const char *control_of(const ps_param *row)
@@ -92,7 +93,8 @@ static void write_row(const char *name, const ps_param *row, bool is_expert,
     json_writer_close(writer, '{');
 }
 
-/* --- kinds ------------------------------------------------------------------------------------------- */
+/* --- kinds
+ * ------------------------------------------------------------------------------------------- */
 
 static void write_plugin(void *user, const struct listed_strategy *listed)
 {
@@ -151,7 +153,8 @@ ps_result catalogue_kinds(char **text, struct error *error)
     return result;
 }
 
-/* --- the whole --------------------------------------------------------------------------------------- */
+/* --- the whole
+ * --------------------------------------------------------------------------------------- */
 
 static void write_size(struct json_writer *writer)
 {

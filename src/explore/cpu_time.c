@@ -1,5 +1,5 @@
-/* cpu_time.c: by /proc/self/task (proc(5)): `schedstat` begins with nanoseconds, where the system keeps them; fields 14
- * and 15 of `stat` are ticks. */
+/* cpu_time.c: by /proc/self/task (proc(5)): `schedstat` begins with nanoseconds, where the system
+ * keeps them; fields 14 and 15 of `stat` are ticks. */
 #include "explore/cpu_time.h"
 
 #include <dirent.h>

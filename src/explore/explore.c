@@ -21,7 +21,8 @@ void explore_request_release(struct explore_request *request)
     option_list_release(&request->options);
 }
 
-/* A page that leads to the address, which only this user can read: command lines of browsers all users can. */
+/* A page that leads to the address, which only this user can read: command lines of browsers all
+ * users can. */
 struct redirect {
     char folder[PATH_MAX], file[PATH_MAX + 16];
 };
@@ -64,7 +65,8 @@ static void redirect_remove(struct redirect *redirect)
     redirect->folder[0] = '\0';
 }
 
-/* A child of a child, which nobody needs to wait for; without a word, and with the signals that this one blocks. */
+/* A child of a child, which nobody needs to wait for; without a word, and with the signals that
+ * this one blocks. */
 static void open_browser(const char *file)
 {
     char shell[] = "sh", flag[] = "-c", script[] = "xdg-open \"$0\" >/dev/null 2>&1 </dev/null &";
@@ -130,7 +132,8 @@ static ps_result serve(const struct explore_request *request, struct explorer *e
     return PS_OK;
 }
 
-/* The signals are blocked before there are threads, so that all of them leave these to the first. */
+/* The signals are blocked before there are threads, so that all of them leave these to the
+ * first. */
 static ps_result run(const struct explore_request *request, struct explorer *explorer,
                      struct error *error)
 {

@@ -15,8 +15,9 @@ struct explore_request {
 
 void explore_request_release(struct explore_request *request);
 
-/* Serves until SIGINT or SIGTERM, which it takes once the scene is loaded; the address is printed to stdout, and errors of the
- * scene's text to stderr. PS_OK: it was ended so. Else the error says why it could not begin. */
+/* Serves until SIGINT or SIGTERM, which it takes once the scene is loaded; the address is printed
+ * to stdout, and errors of the scene's text to stderr. PS_OK: it was ended so. Else the error says
+ * why it could not begin. */
 ps_result explore(struct explore_request *request, psplat_error *error);
 
 #endif

@@ -7,10 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- loading ----------------------------------------------------------------------------------------- */
+/* --- loading
+ * ----------------------------------------------------------------------------------------- */
 
-/* The machine's, shared out among the views. A reference, which lets others go before, does not count. View b is loaded
- * before it is there; a render of view a that goes on then keeps its threads. */
+/* The machine's, shared out among the views. A reference, which lets others go before, does not
+ * count. View b is loaded before it is there; a render of view a that goes on then keeps its
+ * threads. */
 static uint32_t thread_share(struct explorer *explorer, int view)
 {
     uint32_t processors = parallel_processor_count();
@@ -113,7 +115,8 @@ void explorer_note_scene(struct explorer *explorer, struct view *view, const psp
     explorer_tell(explorer);
 }
 
-/* --- requests ---------------------------------------------------------------------------------------- */
+/* --- requests
+ * ---------------------------------------------------------------------------------------- */
 
 void explorer_tell(struct explorer *explorer)
 {
@@ -209,7 +212,8 @@ struct shown_picture *explorer_picture(struct explorer *explorer, int view)
     return shown;
 }
 
-/* --- its life ---------------------------------------------------------------------------------------- */
+/* --- its life
+ * ---------------------------------------------------------------------------------------- */
 
 static void init_locks(struct explorer *explorer)
 {
@@ -239,7 +243,8 @@ static void release(struct explorer *explorer)
     free(explorer->kinds);
 }
 
-/* The first scene, before there are threads. One whose text is wrong is left to the view, which then has it told. */
+/* The first scene, before there are threads. One whose text is wrong is left to the view, which
+ * then has it told. */
 static ps_result load_first(struct explorer *explorer, struct option_list *options, uint32_t passes,
                             psplat_error *problem)
 {

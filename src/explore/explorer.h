@@ -1,8 +1,9 @@
 /* explorer.h: a scene in views that render by themselves, and all that requests may ask of them.
  *
- * Threads: each view has one that renders; requests come in any others. `lock` guards all members but those that
- * say otherwise; whoever changes what a page shows calls explorer_tell under it. Nothing that takes long is done
- * under it: scenes are loaded and pictures made outside, and then put in place.
+ * Threads: each view has one that renders; requests come in any others. `lock` guards all members
+ * but those that say otherwise; whoever changes what a page shows calls explorer_tell under it.
+ * Nothing that takes long is done under it: scenes are loaded and pictures made outside, and then
+ * put in place.
  */
 #ifndef EXPLORE_EXPLORER_H
 #define EXPLORE_EXPLORER_H
@@ -34,13 +35,14 @@ struct explorer {
     struct reference reference;
 };
 
-/* Loads the scene with options of both kinds for view a. A scene whose text is wrong
- * is no failure: it may be mended. Then *problem, of any size, is what to print, or "". Takes over the lists, in any
- * case. To be released on success. */
+/* Loads the scene with options of both kinds for view a. A scene whose text is wrong is no failure:
+ * it may be mended. Then *problem, of any size, is what to print, or "". Takes over the lists, in
+ * any case. To be released on success. */
 ps_result explorer_create(struct explorer *explorer, const char *path, struct option_list *fixed,
                           struct option_list *options, uint32_t passes, psplat_error *problem);
 
-/* Starts the views' threads. PS_ERROR_MEMORY where there are none to be had; it is to be stopped then, too. */
+/* Starts the views' threads. PS_ERROR_MEMORY where there are none to be had; it is to be stopped
+ * then, too. */
 ps_result explorer_start(struct explorer *explorer);
 
 /* Ends all that goes on, renders too. Requests that wait for changes return. */
@@ -52,8 +54,9 @@ void explorer_release(struct explorer *explorer);
 /* Something changed. Under the lock. */
 void explorer_tell(struct explorer *explorer);
 
-/* Gives a view, which may be absent, options and a number of passes, and starts it. Takes over what `options` owns, in
- * any case. The error says why not: PS_ERROR_INVALID where the scene does not take the options. */
+/* Gives a view, which may be absent, options and a number of passes, and starts it. Takes over what
+ * `options` owns, in any case. The error says why not: PS_ERROR_INVALID where the scene does not
+ * take the options. */
 ps_result explorer_put_view(struct explorer *explorer, int view, struct option_list *options,
                             uint32_t passes, psplat_error *error);
 

@@ -1,4 +1,5 @@
-/* handle_light.c: which photons light a pixel, in a scene that is loaded anew: the view's own belongs to its thread. */
+/* handle_light.c: which photons light a pixel, in a scene that is loaded anew: the view's own
+ * belongs to its thread. */
 #include "explore/explorer.h"
 #include "explore/handlers.h"
 

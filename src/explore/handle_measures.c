@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- pixels ------------------------------------------------------------------------------------------ */
+/* --- pixels
+ * ------------------------------------------------------------------------------------------ */
 
 struct pixel {
     struct json_writer *writer;
@@ -52,7 +53,8 @@ bool handle_get_pixel(const struct route_request *request, const char *rest)
     return good;
 }
 
-/* --- comparisons ------------------------------------------------------------------------------------- */
+/* --- comparisons
+ * ------------------------------------------------------------------------------------- */
 
 /* What is compared with what; both pictures are to be released. */
 struct comparison {
@@ -163,7 +165,8 @@ bool handle_get_compare_map(const struct route_request *request, const char *res
     return good;
 }
 
-/* --- the reference ----------------------------------------------------------------------------------- */
+/* --- the reference
+ * ----------------------------------------------------------------------------------- */
 
 bool handle_get_history(const struct route_request *request, const char *rest)
 {

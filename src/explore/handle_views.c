@@ -85,7 +85,8 @@ bool handle_get_picture(const struct route_request *request, const char *rest)
                           handle_argument(request, "layer"));
 }
 
-/* --- changes ----------------------------------------------------------------------------------------- */
+/* --- changes
+ * ----------------------------------------------------------------------------------------- */
 
 bool handle_change(const struct route_request *request, ps_result result, const char *message)
 {

@@ -1,5 +1,5 @@
-/* handlers.h: what route.h leads to. A handler gets what follows the name in the path: "a" of "view/a". False where no
- * answer could be sent. */
+/* handlers.h: what route.h leads to. A handler gets what follows the name in the path: "a" of
+ * "view/a". False where no answer could be sent. */
 #ifndef EXPLORE_HANDLERS_H
 #define EXPLORE_HANDLERS_H
 
@@ -27,7 +27,8 @@ bool handle_get_history(const struct route_request *request, const char *rest);
 bool handle_put_reference(const struct route_request *request, const char *rest);
 bool handle_delete_reference(const struct route_request *request, const char *rest);
 
-/* --- what they share --------------------------------------------------------------------------------- */
+/* --- what they share
+ * --------------------------------------------------------------------------------- */
 
 /* 404 */
 bool handle_unknown(const struct route_request *request);
@@ -35,7 +36,8 @@ bool handle_unknown(const struct route_request *request);
 /* What follows '?' by that name; NULL: nothing. */
 const char *handle_argument(const struct route_request *request, const char *name);
 
-/* A whole number from 0 on and below `limit` that follows '?' by that name; false: there is none. */
+/* A whole number from 0 on and below `limit` that follows '?' by that name; false: there is
+ * none. */
 bool handle_coordinate(const struct route_request *request, const char *name, size_t limit,
                        size_t *coordinate);
 

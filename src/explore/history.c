@@ -18,7 +18,8 @@ struct picture_sample {
     float *planes[3];     /* width * rows each; the first owns all */
 };
 
-/* --- samples ----------------------------------------------------------------------------------------- */
+/* --- samples
+ * ----------------------------------------------------------------------------------------- */
 
 static void copy_rows(struct picture_sample *sample, const struct shown_layer *layer, size_t step)
 {
@@ -88,7 +89,8 @@ double picture_sample_error(const struct picture_sample *test,
     return result == PS_OK ? value.numbers[0] : NAN;
 }
 
-/* --- histories --------------------------------------------------------------------------------------- */
+/* --- histories
+ * --------------------------------------------------------------------------------------- */
 
 static bool is_power_of_two(uint32_t number)
 {

@@ -1,14 +1,16 @@
 /* history.h: how far a view's pictures were from the reference as passes went on.
  *
- * References get better, and come late; so the pictures of 1, 2, 4, 8, ... passes and the newest are kept, to be
- * measured anew. What is kept is the layer that is measured, and of large pictures every n-th row.
+ * References get better, and come late; so the pictures of 1, 2, 4, 8, ... passes and the newest
+ * are kept, to be measured anew. What is kept is the layer that is measured, and of large pictures
+ * every n-th row.
  */
 #ifndef EXPLORE_HISTORY_H
 #define EXPLORE_HISTORY_H
 
 #include "explore/shown_picture.h"
 
-/* A picture's indirect light, or all of it where it has no such layer. Shared by counting references. */
+/* A picture's indirect light, or all of it where it has no such layer. Shared by counting
+ * references. */
 struct picture_sample;
 
 /* NULL when out of memory, or where it has neither. */
@@ -35,7 +37,8 @@ struct history {
     size_t count;
 };
 
-/* Adds the newest picture, in the place of the one before if that was not one to be kept. Takes the sample over. */
+/* Adds the newest picture, in the place of the one before if that was not one to be kept. Takes the
+ * sample over. */
 void history_add(struct history *history, uint32_t passes, double cpu_seconds,
                  struct picture_sample *sample);
 

@@ -15,7 +15,8 @@ char *json_text_copy(const struct json *string)
     return copy;
 }
 
-/* With U+FFFD, three bytes, for each byte that is no part of a character; NULL when out of memory. */
+/* With U+FFFD, three bytes, for each byte that is no part of a character; NULL when out of
+ * memory. */
 static char *mended(const char *text)
 {
     size_t left = strlen(text);

@@ -1,4 +1,5 @@
-/* json_text.h: texts from and to JSON, which is UTF-8 whatever files are called; and JSON in memory. */
+/* json_text.h: texts from and to JSON, which is UTF-8 whatever files are called; and JSON in
+ * memory. */
 #ifndef EXPLORE_JSON_TEXT_H
 #define EXPLORE_JSON_TEXT_H
 

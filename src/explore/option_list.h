@@ -1,4 +1,5 @@
-/* option_list.h: options of a render, by their names on the command line, as lists that grow and are copied. */
+/* option_list.h: options of a render, by their names on the command line, as lists that grow and
+ * are copied. */
 #ifndef EXPLORE_OPTION_LIST_H
 #define EXPLORE_OPTION_LIST_H
 
@@ -32,12 +33,12 @@ void option_list_release(struct option_list *list);
 /* The value of the last of that name; NULL: there is none, or it takes none. */
 const char *option_list_value(const struct option_list *list, const char *name);
 
-/* Whether an option says how a picture of this scene is to look, and not what the program may do: those are for
- * the command line alone. */
+/* Whether an option says how a picture of this scene is to look, and not what the program may do:
+ * those are for the command line alone. */
 bool option_is_of_view(const char *name);
 
-/* Appends [["NAME", "VALUE"], ...], whose options are those of a view and name no plugin by its path. PS_ERROR_INVALID,
- * with what is wrong, or PS_ERROR_MEMORY; to be released in any case. */
+/* Appends [["NAME", "VALUE"], ...], whose options are those of a view and name no plugin by its
+ * path. PS_ERROR_INVALID, with what is wrong, or PS_ERROR_MEMORY; to be released in any case. */
 ps_result option_list_read(struct option_list *list, const struct json *array, struct error *error);
 
 /* Writes them likewise; and as words of a shell, each after a blank. */

@@ -13,7 +13,8 @@
 /* So many of the paths make a pass: pictures come early, and edges get smooth. */
 #define SAMPLES_OF_PASS 4
 
-/* --- path tracing ------------------------------------------------------------------------------------ */
+/* --- path tracing
+ * ------------------------------------------------------------------------------------ */
 
 static bool add_own(struct option_list *list, uint32_t samples)
 {
@@ -83,7 +84,8 @@ void reference_follow(struct explorer *explorer)
     option_list_release(&options);
 }
 
-/* --- putting and deleting ---------------------------------------------------------------------------- */
+/* --- putting and deleting
+ * ---------------------------------------------------------------------------- */
 
 /* Without a reference. */
 static void drop(struct explorer *explorer)
@@ -200,7 +202,8 @@ void reference_release(struct reference *reference)
     *reference = (struct reference){.kind = REFERENCE_NONE};
 }
 
-/* --- as JSON ----------------------------------------------------------------------------------------- */
+/* --- as JSON
+ * ----------------------------------------------------------------------------------------- */
 
 static void write_paths(const struct explorer *explorer, struct json_writer *writer)
 {

@@ -1,7 +1,7 @@
 /* reference.h: the picture that views are measured against.
  *
- * A file, a picture that a view had, or one that is path traced meanwhile, as a third view that nobody sees
- * and that other threads go before.
+ * A file, a picture that a view had, or one that is path traced meanwhile, as a third view that
+ * nobody sees and that other threads go before.
  */
 #ifndef EXPLORE_REFERENCE_H
 #define EXPLORE_REFERENCE_H
@@ -23,8 +23,8 @@ struct reference {
     struct shown_picture *shown; /* of REFERENCE_FILE and _VIEW */
 };
 
-/* Each takes the place of the reference before, where it succeeds. A path that is not absolute begins at the scene's
- * folder. */
+/* Each takes the place of the reference before, where it succeeds. A path that is not absolute
+ * begins at the scene's folder. */
 ps_result reference_put_file(struct explorer *explorer, const char *path, struct error *error);
 ps_result reference_put_view(struct explorer *explorer, int view, struct error *error);
 
@@ -33,7 +33,8 @@ ps_result reference_put_paths(struct explorer *explorer, uint32_t samples, struc
 
 void reference_delete(struct explorer *explorer);
 
-/* What view a shows may have changed: path tracing begins anew where that matters. Under the lock. */
+/* What view a shows may have changed: path tracing begins anew where that matters. Under the
+ * lock. */
 void reference_follow(struct explorer *explorer);
 
 /* Its picture, to be released, or NULL. Under the lock. */

@@ -1,4 +1,5 @@
-/* route.h: which address and method of a request that was let in leads to what; psplat-explore(1) lists them. */
+/* route.h: which address and method of a request that was let in leads to what; psplat-explore(1)
+ * lists them. */
 #ifndef EXPLORE_ROUTE_H
 #define EXPLORE_ROUTE_H
 

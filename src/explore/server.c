@@ -20,7 +20,8 @@ struct request {
     size_t length, room;
 };
 
-/* --- who may ask ------------------------------------------------------------------------------------- */
+/* --- who may ask
+ * ------------------------------------------------------------------------------------- */
 
 static const char *header(struct MHD_Connection *connection, const char *name)
 {
@@ -40,8 +41,8 @@ static bool is_own_origin(const struct server *server, const char *origin)
            is_own_host(server, origin + sizeof scheme - 1);
 }
 
-/* What follows the token in the address "/TOKEN/..."; NULL where the token is another. Takes as long for every wrong
- * one. */
+/* What follows the token in the address "/TOKEN/..."; NULL where the token is another. Takes as
+ * long for every wrong one. */
 static const char *path_behind_token(const struct server *server, const char *url)
 {
     unsigned difference = 0;
@@ -63,7 +64,8 @@ static unsigned refusal(const struct server *server, struct MHD_Connection *conn
     return path_behind_token(server, url) ? 0 : MHD_HTTP_NOT_FOUND;
 }
 
-/* --- bodies ------------------------------------------------------------------------------------------ */
+/* --- bodies
+ * ------------------------------------------------------------------------------------------ */
 
 static bool is_json(const char *type)
 {
@@ -176,7 +178,8 @@ static void end_request(void *user, struct MHD_Connection *connection, void **st
     *state = NULL;
 }
 
-/* --- its life ---------------------------------------------------------------------------------------- */
+/* --- its life
+ * ---------------------------------------------------------------------------------------- */
 
 static ps_result make_token(struct server *server, struct error *error)
 {

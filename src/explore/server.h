@@ -1,8 +1,9 @@
 /* server.h: an explorer's HTTP server, by libmicrohttpd; the addresses are in psplat-explore(1).
  *
- * It listens on 127.0.0.1 alone. All addresses begin with a token of 128 random bits, which other users of the machine
- * and other pages in the browser don't know; and a request has to name this server as its host, and as its origin
- * if it names one, so that no other name leads here (DNS rebinding) and no other page's script.
+ * It listens on 127.0.0.1 alone. All addresses begin with a token of 128 random bits, which other
+ * users of the machine and other pages in the browser don't know; and a request has to name this
+ * server as its host, and as its origin if it names one, so that no other name leads here (DNS
+ * rebinding) and no other page's script.
  */
 #ifndef EXPLORE_SERVER_H
 #define EXPLORE_SERVER_H

@@ -77,7 +77,8 @@ size_t shown_picture_height(const struct shown_picture *shown)
     return psplat_picture_height(shown->picture);
 }
 
-/* --- layers ------------------------------------------------------------------------------------------ */
+/* --- layers
+ * ------------------------------------------------------------------------------------------ */
 
 /* How the channels of a colour, or a vector, end. */
 static const char *const endings[2][3] = {{"R", "G", "B"}, {"X", "Y", "Z"}};
@@ -144,7 +145,8 @@ void shown_picture_each_layer(const struct shown_picture *shown,
     }
 }
 
-/* --- as bytes ---------------------------------------------------------------------------------------- */
+/* --- as bytes
+ * ---------------------------------------------------------------------------------------- */
 
 size_t shown_layer_bytes(const struct shown_picture *shown, const struct shown_layer *layer)
 {

@@ -1,7 +1,8 @@
 /* shown_picture.h: a picture that views show and requests read, shared by counting references.
  *
- * It does not change once it is made, so that all may look at it without a lock. Layers are the channels that belong
- * together: `picture` is R, G and B; `indirect` indirect.R, .G and .B; `Z` the one channel of that name.
+ * It does not change once it is made, so that all may look at it without a lock. Layers are the
+ * channels that belong together: `picture` is R, G and B; `indirect` indirect.R, .G and .B; `Z` the
+ * one channel of that name.
  */
 #ifndef EXPLORE_SHOWN_PICTURE_H
 #define EXPLORE_SHOWN_PICTURE_H
@@ -13,8 +14,8 @@
 
 struct shown_picture;
 
-/* With one reference, which is the caller's. Takes the picture over, in any case; NULL when out of memory. `number`
- * names it for those who fetch it: larger than those before. */
+/* With one reference, which is the caller's. Takes the picture over, in any case; NULL when out of
+ * memory. `number` names it for those who fetch it: larger than those before. */
 struct shown_picture *shown_picture_create(psplat_picture *picture, uint64_t number);
 
 /* Reads an OpenEXR file, likewise. */
@@ -47,8 +48,9 @@ void shown_picture_each_layer(const struct shown_picture *shown,
                               void (*each)(void *user, const struct shown_layer *layer),
                               void *user);
 
-/* A layer as bytes: a header of four u32 (width, height, channels, the picture's number) and the samples as float32,
- * row by row from the top, a pixel's together, all little-endian. `display` is sRGB-encoded. */
+/* A layer as bytes: a header of four u32 (width, height, channels, the picture's number) and the
+ * samples as float32, row by row from the top, a pixel's together, all little-endian. `display` is
+ * sRGB-encoded. */
 size_t shown_layer_bytes(const struct shown_picture *shown, const struct shown_layer *layer);
 
 /* Writes bytes from `at`, at most `most`; returns how many. */

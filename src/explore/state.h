@@ -1,4 +1,5 @@
-/* state.h: what a page shows beside pictures, as JSON: views, how far they are, and what is wrong. */
+/* state.h: what a page shows beside pictures, as JSON: views, how far they are, and what is
+ * wrong. */
 #ifndef EXPLORE_STATE_H
 #define EXPLORE_STATE_H
 

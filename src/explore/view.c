@@ -18,7 +18,8 @@
 
 #define BEHIND_NICE 15
 
-/* Of the first preview, and of the second. That may take some time, and more where the first pass takes long. */
+/* Of the first preview, and of the second. That may take some time, and more where the first pass
+ * takes long. */
 #define FIRST_PIXELS 10000.0
 #define MOST_PIXELS 230400.0
 #define PREVIEW_SECONDS 0.5
@@ -133,7 +134,8 @@ static void measure(struct view *view)
     }
 }
 
-/* Puts a picture in place; false, and nothing has changed, where it is no longer wanted. Under the lock. */
+/* Puts a picture in place; false, and nothing has changed, where it is no longer wanted. Under the
+ * lock. */
 static bool put_in_place(const struct work *work, struct shown_picture *shown, uint32_t passes,
                          struct picture_sample *sample)
 {

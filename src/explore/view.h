@@ -1,4 +1,5 @@
-/* view.h: one view of the scene: options, and a render by them that goes on as a picture that gets better. */
+/* view.h: one view of the scene: options, and a render by them that goes on as a picture that gets
+ * better. */
 #ifndef EXPLORE_VIEW_H
 #define EXPLORE_VIEW_H
 
@@ -25,10 +26,11 @@ struct view {
     bool has_thread;
     pthread_t thread;
     char name[THREAD_NAME_LENGTH]; /* of its threads */
-    bool
-        is_behind; /* for others to be measured by: without a preview, and other threads go before its */
+    /* For others to be measured by: without a preview, and other threads go before its. */
+    bool is_behind;
 
-    /* What is asked for. Each change of it counts, so that a render finds out that it is no longer wanted. */
+    /* What is asked for. Each change of it counts, so that a render finds out that it is no longer
+     * wanted. */
     bool is_present;
     struct option_list options;
     uint32_t passes;

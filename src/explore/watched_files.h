@@ -1,7 +1,7 @@
 /* watched_files.h: whether files have changed, by what the file system says of them.
  *
- * Asked from time to time: inotify tells of folders on the same machine alone, and editors that replace a file
- * lose what it watches.
+ * Asked from time to time: inotify tells of folders on the same machine alone, and editors that
+ * replace a file lose what it watches.
  */
 #ifndef EXPLORE_WATCHED_FILES_H
 #define EXPLORE_WATCHED_FILES_H
@@ -27,8 +27,8 @@ void watched_files_release(struct watched_files *files);
 /* They were read just now, which began at that time; what was written since is a change. */
 void watched_files_read(struct watched_files *files, struct timespec began);
 
-/* Whether they are not what they were, and have come to rest since the last question: editors write in several
- * steps. They count as read then. */
+/* Whether they are not what they were, and have come to rest since the last question: editors write
+ * in several steps. They count as read then. */
 bool watched_files_changed(struct watched_files *files);
 
 #endif

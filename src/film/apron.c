@@ -3,8 +3,8 @@
 #include <math.h>
 #include <psplat/math.h>
 
-/* How far pixels may lie off the plane, in parts of the distance between neighbours, which is squared: far
- * less than gbuffer_same_surface allows. */
+/* How far pixels may lie off the plane, in parts of the distance between neighbours, which is
+ * squared: far less than gbuffer_same_surface allows. */
 #define MOST_OFF2 (0.005f * 0.005f)
 
 static bool has_one_normal(const struct apron_surfaces *at, int first, int end)

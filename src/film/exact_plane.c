@@ -6,8 +6,8 @@
 
 #define RUN 256 /* sums at a time */
 
-/* Adding and subtracting it rounds what is smaller than COARSE to a multiple of 2^-48; larger floats are such
- * multiples. */
+/* Adding and subtracting it rounds what is smaller than COARSE to a multiple of 2^-48; larger
+ * floats are such multiples. */
 #define ROUNDER 24.0 /* 1.5 * 2^(52 - 48) */
 #define COARSE 8.0
 

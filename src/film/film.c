@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Touched by one thread, now: when several threads touch new pages at once, they wait for each other in
- * the operating system, several times as long. */
+/* Touched by one thread, now: when several threads touch new pages at once, they wait for each
+ * other in the operating system, several times as long. */
 static float *plane_create(size_t width, size_t height)
 {
     size_t bytes = (width * height * sizeof(float) + 63) / 64 * 64;

@@ -1,6 +1,7 @@
 /* film.h: what a pass gives, or several passes do (film_sum.h).
  *
- * Planes of float, row-major, top row first. Normalization and averaging happen when the film is resolved.
+ * Planes of float, row-major, top row first. Normalization and averaging happen when the film is
+ * resolved.
  */
 #ifndef FILM_FILM_H
 #define FILM_FILM_H
@@ -32,8 +33,8 @@ enum film_plane {
     FILM_REFLECTED_R = FILM_ON_REQUEST,
     FILM_REFLECTED_G,
     FILM_REFLECTED_B, /* direct light that is reflected, or that gloss mirrors: what has noise */
-    /* Direct light of lights that cast hard shadows, where these are denoised separately (scene_has_hard_shadows_apart): then it is
-     * not in FILM_REFLECTED. */
+    /* Direct light of lights that cast hard shadows, where these are denoised separately
+     * (scene_has_hard_shadows_apart): then it is not in FILM_REFLECTED. */
     FILM_HARD_R,
     FILM_HARD_G,
     FILM_HARD_B,
@@ -49,14 +50,16 @@ struct film {
     float *planes[FILM_PLANES];   /* each width * height, owned */
     bool has[FILM_PLANES];        /* which of them it has, or had before they were taken */
     uint32_t *object, *material;  /* what pixels see in pass 0; owned, NULL where nobody asks */
-    /* Parts of the film, owned, or NULL: `odd`, the odd passes alone; `half`, direct light by the second half of each pass's shadow
-     * rays or, in gloss, of its camera samples. Their difference from the whole tells the noise. */
+    /* Parts of the film, owned, or NULL: `odd`, the odd passes alone; `half`, direct light by the
+     * second half of each pass's shadow rays or, in gloss, of its camera samples. Their difference
+     * from the whole tells the noise. */
     struct film *odd, *half;
     bool is_half; /* this is such a half */
 };
 
-/* Makes an empty film of the whole picture. To film a window, set `window` before adding tiles. Without `surfaces` it keeps the
- * light alone: planes from FILM_ALBEDO_R to FILM_DEPTH stay NULL. */
+/* Makes an empty film of the whole picture. To film a window, set `window` before adding tiles.
+ * Without `surfaces` it keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH stay
+ * NULL. */
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
                       struct error *error);
 /* Makes room for objects and materials. */
@@ -65,8 +68,9 @@ ps_result film_add_ids(struct film *film, struct error *error);
 /* Lets the film keep the indirect light of its odd passes apart as well. */
 ps_result film_add_halves(struct film *film, struct error *error);
 
-/* Lets it keep the direct light that is reflected apart from what is emitted, and half of it: of the passes, or of
- * each of them. With `hard_apart`, that of lights that cast hard shadows as well. */
+/* Lets it keep the direct light that is reflected apart from what is emitted, and half of it: of
+ * the passes, or of each of them. With `hard_apart`, that of lights that cast hard shadows as
+ * well. */
 ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apart,
                              struct error *error);
 
@@ -83,14 +87,15 @@ bool film_has_tile(const struct film *film, const struct gbuffer *gbuffer, uint3
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
 
-/* Adds what the pixels of one tile of the pass that lie in the film gathered, but for the lanes that are `left_out`
- * (NULL: none); call for every tile, then end the pass. Tiles may be added by different threads at once: they touch
- * different pixels. */
+/* Adds what the pixels of one tile of the pass that lie in the film gathered, but for the lanes
+ * that are `left_out` (NULL: none); call for every tile, then end the pass. Tiles may be added by
+ * different threads at once: they touch different pixels. */
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile,
                    const bool left_out[PS_TILE_PIXELS]);
 
-/* Adds `share` of what each of `count` lanes of a G-buffer's only tile gathered, from lane `first` on, to pixel
- * (x, y) of the picture, whose own lane was left out. They are all of that pixel's, which lies in the film. */
+/* Adds `share` of what each of `count` lanes of a G-buffer's only tile gathered, from lane `first`
+ * on, to pixel (x, y) of the picture, whose own lane was left out. They are all of that pixel's,
+ * which lies in the film. */
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
                       uint32_t count, float share, size_t x, size_t y);
 void film_end_pass(struct film *film);

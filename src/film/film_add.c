@@ -1,7 +1,7 @@
 /* film_add.c: adds what a pass sees to a film, tile by tile; see film.h.
  *
- * Rows of a tile's pixels are added plane by plane, so that compilers make vectors of it. Pixels at edges are added by their
- * samples (view/edges.h), a row of which stands for one pixel.
+ * Rows of a tile's pixels are added plane by plane, so that compilers make vectors of it. Pixels at
+ * edges are added by their samples (view/edges.h), a row of which stands for one pixel.
  */
 #include "film/film.h"
 
@@ -58,9 +58,10 @@ static void add_seen(struct film *film, int plane, const struct tile_row *row, c
     add_shares(film, plane, row, seen);
 }
 
-/* The weight of a sample in the planes albedo to depth: 1 where it saw a surface or gloss, 2^-20 for a mirror with nothing behind, 0 for
- * nothing. So a mirror is recorded only where no other sample of the pixel saw a surface, and denoisers skip it: its light has no
- * noise. A power of two keeps sums exact. */
+/* The weight of a sample in the planes albedo to depth: 1 where it saw a surface or gloss, 2^-20
+ * for a mirror with nothing behind, 0 for nothing. So a mirror is recorded only where no other
+ * sample of the pixel saw a surface, and denoisers skip it: its light has no noise. A power of two
+ * keeps sums exact. */
 static float presence(const struct tile_row *row, size_t i)
 {
     const float mirror = 0x1p-20f;
@@ -105,7 +106,8 @@ struct row_channel {
     float emitted[PS_TILE_SIZE];                   /* radiance */
 };
 
-/* The direct light that a denoiser may smooth: what surfaces reflect and, where the path met gloss, all that it collected. */
+/* The direct light that a denoiser may smooth: what surfaces reflect and, where the path met gloss,
+ * all that it collected. */
 static void add_denoised(struct film *film, const struct tile_row *row, int channel,
                          const struct row_channel *from, const float albedo[PS_TILE_SIZE])
 {
@@ -121,8 +123,9 @@ static void add_denoised(struct film *film, const struct tile_row *row, int chan
     add_shares(film, FILM_REFLECTED_R + channel, row, rest);
 }
 
-/* Adds one channel of direct and indirect light: albedo throughput / pi * irradiance. The throughput includes 1 / probability of the lobes
- * and 1 / eta^2 in glass, so albedo times throughput can exceed 1; the albedo plane is limited to 1. */
+/* Adds one channel of direct and indirect light: albedo throughput / pi * irradiance. The
+ * throughput includes 1 / probability of the lobes and 1 / eta^2 in glass, so albedo times
+ * throughput can exceed 1; the albedo plane is limited to 1. */
 static void add_reflected(struct film *film, const struct tile_row *row, int channel,
                           const struct row_channel *from)
 {
@@ -311,7 +314,8 @@ void film_keep_ids(struct film *film, const struct gbuffer *gbuffer, uint32_t in
     }
 }
 
-/* Only where all samples met gloss does their difference tell noise: at the edge of a glossy surface they see different surfaces. */
+/* Only where all samples met gloss does their difference tell noise: at the edge of a glossy
+ * surface they see different surfaces. */
 static bool all_met_gloss(const struct gbuffer *gbuffer, uint32_t first, uint32_t count)
 {
     bool all = gbuffer->glossy != NULL;

@@ -40,9 +40,11 @@ size_t film_parts_pixels(const struct film_sum *const parts[], size_t count)
     return pixels;
 }
 
-/* --- joining ---------------------------------------------------------------------------------------- */
+/* --- joining
+ * ---------------------------------------------------------------------------------------- */
 
-/* Copies the rows of a part's plane of values of `size` bytes to their place in another; NULL: zeros, or nowhere. */
+/* Copies the rows of a part's plane of values of `size` bytes to their place in another; NULL:
+ * zeros, or nowhere. */
 static void copy_rows(const struct film_sum *part, const void *from, const struct film_sum *joined,
                       void *to, size_t size)
 {

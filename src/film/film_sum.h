@@ -1,8 +1,9 @@
-/* film_sum.h: the sum of any passes of a render, the same in whatever order and groups they are added
- * (exact_plane.h): what several machines share, or interrupted jobs leave, adds up to the film of one.
+/* film_sum.h: the sum of any passes of a render, the same in whatever order and groups they are
+ * added (exact_plane.h): what several machines share, or interrupted jobs leave, adds up to the
+ * film of one.
  *
- * The cost: 8 bytes for each value of a pixel, or 16 where sums are large, and a sweep over the film in each
- * pass.
+ * The cost: 8 bytes for each value of a pixel, or 16 where sums are large, and a sweep over the
+ * film in each pass.
  */
 #ifndef FILM_FILM_SUM_H
 #define FILM_FILM_SUM_H
@@ -12,8 +13,8 @@
 #include "film/film.h"
 #include "film/pass_set.h"
 
-/* Values that a pixel has in the sum: those of the film, of the odd passes, and of halves of the passes; and
- * r^2 + g^2 + b^2 of each pass's indirect light, which gives its variance. */
+/* Values that a pixel has in the sum: those of the film, of the odd passes, and of halves of the
+ * passes; and r^2 + g^2 + b^2 of each pass's indirect light, which gives its variance. */
 enum {
     FILM_SUM_OF_ODD = FILM_PLANES,
     FILM_SUM_OF_HALF = 2 * FILM_PLANES,
@@ -43,8 +44,8 @@ size_t film_sum_bytes(const struct film_sum *sum);
 /* Whether a film has the place and the planes of the sum. */
 bool film_sum_fits(const struct film_sum *sum, const struct film *film);
 
-/* Adds a film that fits and holds pass `film->number` alone, which is not in the sum yet. When out of memory,
- * PS_ERROR_MEMORY, the sum is lost: it is of no passes then. */
+/* Adds a film that fits and holds pass `film->number` alone, which is not in the sum yet. When out
+ * of memory, PS_ERROR_MEMORY, the sum is lost: it is of no passes then. */
 ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
                        struct error *error);
 

@@ -7,13 +7,14 @@
 
 /* What the film's pixels depend on, and how far that reaches, in pixels:
  *
- *     samples at edges     edges, and the indirect light around (view/edges.h)                  EDGE_REACH
- *     means of that light  of interleaved subsets, of short-range light, of direct light (a     MEAN_REACH
- *                          discontinuity buffer); flat tiles are averaged in one
- *     rays of that light   shared out by how many pixels are averaged, in blocks of 4 x 4       MEAN_REACH again
- *                          pixels that lie on the same surface
+ *     EDGE_REACH  samples at edges: edges, and the indirect light around (view/edges.h)
+ *     MEAN_REACH  means of that light: of interleaved subsets, of short-range light, of direct
+ *                 light (a discontinuity buffer); flat tiles are averaged in one
+ *     MEAN_REACH  again, for rays of that light: shared out by how many pixels are averaged, in
+ *                 blocks of 4 x 4 pixels that lie on the same surface
  *
- * Means go tile by tile, so that the first is of pixels and the others are of its tiles. Any estimator may splat. */
+ * Means go tile by tile, so that the first is of pixels and the others are of its tiles. Any
+ * estimator may splat. */
 #define EDGE_REACH 2
 #define MEAN_REACH (PS_MOST_INTERLEAVE / 2)
 

@@ -3,8 +3,9 @@
  * Tiles of 16x16 pixels, each a structure of arrays (ps_tile), stored one after the other. A tile
  * is the unit of work: one thread owns it at a time, so nothing needs a lock.
  *
- * The tiles may be those of a window of the picture alone. They are stored by their index in the window; their number in
- * the picture, which random numbers go by, is another. Columns and rows are always those of the picture.
+ * The tiles may be those of a window of the picture alone. They are stored by their index in the
+ * window; their number in the picture, which random numbers go by, is another. Columns and rows are
+ * always those of the picture.
  */
 #ifndef FILM_GBUFFER_H
 #define FILM_GBUFFER_H
@@ -18,9 +19,10 @@
 /* Where lanes that see no surface lie: outside of any scene, yet its square is finite. */
 #define GBUFFER_NOWHERE 1e18f
 
-/* The surface that stands for a lane in denoisers, where its camera path met gloss or a partly mirroring surface: the first such
- * surface. What lies behind it differs from sample to sample; this surface is what neighbouring pixels have in common. A path that met
- * sharp mirrors only, and no surface behind them, has its first mirror (`sharp`). */
+/* The surface that stands for a lane in denoisers, where its camera path met gloss or a partly
+ * mirroring surface: the first such surface. What lies behind it differs from sample to sample;
+ * this surface is what neighbouring pixels have in common. A path that met sharp mirrors only, and
+ * no surface behind them, has its first mirror (`sharp`). */
 struct glossy_tile {
     float reflectance_r[PS_TILE_PIXELS], reflectance_g[PS_TILE_PIXELS],
         reflectance_b[PS_TILE_PIXELS]; /* by all lobes, and of the way from there to the camera */
@@ -54,8 +56,9 @@ struct gbuffer {
 /* Tiles of a picture of that size, and no memory for them. */
 struct gbuffer gbuffer_layout(size_t width, size_t height);
 
-/* The tiles of which a part of the picture needs any, so that its film is that of the whole picture: its own and those
- * that its means over neighbours look at. `smooth_edges`: pixels take several samples at edges. */
+/* The tiles of which a part of the picture needs any, so that its film is that of the whole
+ * picture: its own and those that its means over neighbours look at. `smooth_edges`: pixels take
+ * several samples at edges. */
 struct gbuffer gbuffer_layout_around(struct rectangle part, bool smooth_edges, size_t width,
                                      size_t height);
 
@@ -66,7 +69,8 @@ struct rectangle gbuffer_window(const struct gbuffer *gbuffer);
 ps_result gbuffer_create(struct gbuffer layout, struct gbuffer *gbuffer, struct error *error);
 void gbuffer_release(struct gbuffer *gbuffer);
 
-/* The optional arrays; those that are there stay as they are. PS_ERROR_MEMORY: release the buffer all the same. */
+/* The optional arrays; those that are there stay as they are. PS_ERROR_MEMORY: release the buffer
+ * all the same. */
 ps_result gbuffer_prepare_discontinuity_buffer(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error);
 /* And half of it, if `direct_half` is there. */
@@ -116,12 +120,12 @@ uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, 
 bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
                   uint32_t *lane);
 
-/* Makes all lanes of a tile see nothing, meet no glossy surface, and zeroes its accumulators, emitted radiance and
- * stochastic. */
+/* Makes all lanes of a tile see nothing, meet no glossy surface, and zeroes its accumulators,
+ * emitted radiance and stochastic. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 
-/* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput` of
- * its light. */
+/* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput`
+ * of its light. */
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled);
 
@@ -129,13 +133,13 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
 void gbuffer_store_geometric_normal(struct gbuffer *gbuffer, uint32_t tile, uint32_t lane,
                                     const ps_hit *hit);
 
-/* Notes a glossy surface of a lane that met none before, what it reflects with the way to the camera, and the share
- * of that which is gloss. */
+/* Notes a glossy surface of a lane that met none before, what it reflects with the way to the
+ * camera, and the share of that which is gloss. */
 void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
                           ps_rgb reflectance, float gloss, float travelled);
 
-/* Notes a mirror of a lane that met no such surface before, likewise. A glossy surface behind it replaces it; a path that
- * ends at a surface forgets it (below). */
+/* Notes a mirror of a lane that met no such surface before, likewise. A glossy surface behind it
+ * replaces it; a path that ends at a surface forgets it (below). */
 void gbuffer_store_mirror(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
                           ps_rgb reflectance, float travelled);
 
@@ -148,8 +152,9 @@ bool gbuffer_sees_nothing(const ps_tile *tile);
 /* Lane of number i when a tile is walked in 4x4 blocks. */
 uint32_t gbuffer_block_lane(uint32_t i);
 
-/* Whether two points may be taken for points of one surface: normals no farther apart than 25 degrees, and the second, which lies
- * `way` from the first, no farther off its plane than a tenth of their distance. For loops of vectors. */
+/* Whether two points may be taken for points of one surface: normals no farther apart than 25
+ * degrees, and the second, which lies `way` from the first, no farther off its plane than a tenth
+ * of their distance. For loops of vectors. */
 static inline int gbuffer_same_surface(ps_vec3 normal, ps_vec3 other_normal, ps_vec3 way)
 {
     float off_plane = ps_dot(normal, way);
@@ -158,19 +163,21 @@ static inline int gbuffer_same_surface(ps_vec3 normal, ps_vec3 other_normal, ps_
     return faces_alike & in_plane;
 }
 
-/* What a point counts for another that lies `way` from it: inverse distance weighting (Shepard 1968, "A two-dimensional interpolation
- * function for irregularly-spaced data"). One in the same place counts, too. For loops of vectors. */
+/* What a point counts for another that lies `way` from it: inverse distance weighting (Shepard
+ * 1968, "A two-dimensional interpolation function for irregularly-spaced data"). One in the same
+ * place counts, too. For loops of vectors. */
 static inline float gbuffer_nearness(ps_vec3 way)
 {
     return 1.0f / (ps_dot(way, way) + 1e-20f);
 }
 
-/* Which lanes of a tile may show the surface of an object at that place: 1 or 0. Returns how many. */
+/* Which lanes of a tile may show the surface of an object at that place: 1 or 0. Returns how
+ * many. */
 float gbuffer_alike(const ps_tile *tile, ps_vec3 position, ps_vec3 normal, uint32_t object,
                     float alike[PS_TILE_PIXELS]);
 
-/* What a ray to light `light` met, of which the share `lit` came through: light i of 32 has bits 2 i, some
- * light came through, and 2 i + 1, some was stopped. Further lights share them. */
+/* What a ray to light `light` met, of which the share `lit` came through: light i of 32 has bits 2
+ * i, some light came through, and 2 i + 1, some was stopped. Further lights share them. */
 static inline uint64_t gbuffer_occlusion(size_t light, float lit)
 {
     uint64_t bits = (uint64_t)(lit > 0.0f) | (uint64_t)(lit < 1.0f) << 1;
@@ -182,8 +189,8 @@ static inline uint64_t gbuffer_either_bit(uint64_t mask)
     return (mask | mask >> 1) & UINT64_C(0x5555555555555555);
 }
 
-/* Whether two points see the lights alike: none that shines on one of them whole is hidden from the other,
- * nor out of its reach. So the edge of a hard shadow lies between them, or nothing does. */
+/* Whether two points see the lights alike: none that shines on one of them whole is hidden from the
+ * other, nor out of its reach. So the edge of a hard shadow lies between them, or nothing does. */
 static inline bool gbuffer_occlusion_alike(uint64_t a, uint64_t b)
 {
     return gbuffer_either_bit(a & b) == gbuffer_either_bit(a | b);

@@ -81,7 +81,8 @@ static void find_alike(const struct geometry_filter *mean, const struct apron *a
                                             apron->occlusion[there][APRON_MARGIN + i + dx]);
 }
 
-/* Adds to the pixels of a row their neighbours at (dx, dy) and (-dx, -dy), where both are like them. */
+/* Adds to the pixels of a row their neighbours at (dx, dy) and (-dx, -dy), where both are like
+ * them. */
 static void add_pairs(const struct geometry_filter *mean, const struct apron *apron, int row,
                       int dx, int dy, struct row_sums *restrict sums)
 {

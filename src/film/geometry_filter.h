@@ -1,13 +1,13 @@
-/* geometry_filter.h: the mean over a square window, restricted to the same surface (a joint box filter; interleaved sampling,
- * Keller and Heidrich 2001, section 4).
+/* geometry_filter.h: the mean over a square window, restricted to the same surface (a joint box
+ * filter; interleaved sampling, Keller and Heidrich 2001, section 4).
  *
  * Few rays tell a pixel's light badly; its neighbours find nearly the same light. The mean takes
  *
  * - pixels on the same surface, all but flat: bumps keep their shading;
- * - those that see the lights alike (gbuffer_occlusion_alike), where `occlusion` is given: nothing crosses the edge
- *   of a hard shadow;
- * - pairs that lie opposite each other, both or none. A mean over pairs keeps what falls off linearly, where
- *   one over part of a window would flatten what lies along the rims of surfaces.
+ * - those that see the lights alike (gbuffer_occlusion_alike), where `occlusion` is given: nothing
+ *   crosses the edge of a hard shadow;
+ * - pairs that lie opposite each other, both or none. A mean over pairs keeps what falls off
+ *   linearly, where one over part of a window would flatten what lies along the rims of surfaces.
  *
  * Light that does not vary linearly within the window is blurred (bias).
  */
@@ -33,8 +33,8 @@ static inline int geometry_filter_window(int radius)
     return (2 * radius + 1) * (2 * radius + 1);
 }
 
-/* Writes to `to` the mean of `from` over each lane's window, and to `counts` the number of pixels in it. Arrays must not overlap. Runs on
- * all workers. */
+/* Writes to `to` the mean of `from` over each lane's window, and to `counts` the number of pixels
+ * in it. Arrays must not overlap. Runs on all workers. */
 void geometry_filter_apply(struct geometry_filter *mean, struct workers *workers);
 
 #endif

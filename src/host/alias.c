@@ -1,7 +1,7 @@
 /* alias.c: the alias method (Walker 1977; Vose 1991).
  *
- * Inversion of a cumulative sum (scene/distribution.h) would keep neighbouring numbers on neighbouring
- * entries, at a logarithmic search for each choice.
+ * Inversion of a cumulative sum (scene/distribution.h) would keep neighbouring numbers on
+ * neighbouring entries, at a logarithmic search for each choice.
  */
 #include "host/alias.h"
 #include <assert.h>
@@ -14,7 +14,8 @@ static double build(const float *weights, uint32_t n, ps_alias *table, uint32_t 
     if (!(total > 0.0))
         return 0.0;
     double scale = (double)n / total;
-    /* Entries of less than a cell are a stack at the front of `order`, the others one at its back. */
+    /* Entries of less than a cell are a stack at the front of `order`, the others one at its
+     * back. */
     uint32_t small = 0, large = n;
     for (uint32_t i = 0; i < n; i++) {
         double share = (double)weights[i] * scale;

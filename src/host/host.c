@@ -1,4 +1,5 @@
-/* host.c: the services that have to do with the plugin itself: memory, messages, loops, random numbers. */
+/* host.c: the services that have to do with the plugin itself: memory, messages, loops, random
+ * numbers. */
 #include "host/host.h"
 
 #include "base/parallel.h"

@@ -13,13 +13,15 @@ void host_add_lights(ps_host *host);  /* lights */
 void host_add_tiles(ps_host *host);   /* tiles of the picture */
 void host_add_photons(ps_host *host); /* photons and splats */
 
-/* Whether a service may be called now; else the callback under way fails, with the service's name. */
+/* Whether a service may be called now; else the callback under way fails, with the service's
+ * name. */
 bool host_in_place(const ps_host *host, bool there, const char *service);
 
 /* A call with an index that is too large: the callback under way fails. */
 void host_refuse_index(const ps_host *host, const char *service, uint64_t index, uint64_t count);
 
-/* Gives the caller as much of a struct as it knows: the size at its front, which must have been set. */
+/* Gives the caller as much of a struct as it knows: the size at its front, which must have been
+ * set. */
 void host_hand_over(const ps_host *host, const char *service, void *theirs, const void *ours,
                     uint32_t size);
 

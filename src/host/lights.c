@@ -1,6 +1,7 @@
 /* lights.c: what plugins ask of lights; see ps_host.
  *
- * Where there are few, light_sample draws them by power; of many, as the points of pixels and paths do, by the light BVH.
+ * Where there are few, light_sample draws them by power; of many, as the points of pixels and paths
+ * do, by the light BVH.
  */
 #include "host/host.h"
 
@@ -110,8 +111,8 @@ static void host_emit_from(const ps_host *host, uint32_t index, const float (*sa
     }
 }
 
-/* A light that a place draws, or one of its triangles; the chance of the light, for weights; and what to multiply the
- * light's answer with. */
+/* A light that a place draws, or one of its triangles; the chance of the light, for weights; and
+ * what to multiply the light's answer with. */
 struct drawn_light {
     struct light_choice choice;
     float probability;
@@ -133,8 +134,8 @@ static float afar_share(const struct scene *scene)
 
 static const struct light_draws one_draw = {.most = 1};
 
-/* The chance of a light at a place: its share of the power; of many lights that of its draws from the light BVH, suns and
- * skies aside. */
+/* The chance of a light at a place: its share of the power; of many lights that of its draws from
+ * the light BVH, suns and skies aside. */
 static float light_probability(const struct scene *scene, size_t light, ps_vec3 place)
 {
     if (!scene_chooses_lights(scene) || light_is_afar(&scene->lights[light]))

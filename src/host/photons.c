@@ -9,10 +9,12 @@
 #include "short_range/short_range_gather.h"
 #include <psplat/math.h>
 
-/* --- placing ---------------------------------------------------------------------------------------- */
+/* --- placing
+ * ---------------------------------------------------------------------------------------- */
 
-/* Splats that can light nothing in view are dropped before more is done for them: of a large scene little is in
- * view. Where few are dropped, asking takes longer than what it saves; then one batch in so many is asked. */
+/* Splats that can light nothing in view are dropped before more is done for them: of a large scene
+ * little is in view. Where few are dropped, asking takes longer than what it saves; then one batch
+ * in so many is asked. */
 #define ASK_EVERY 16
 #define ENOUGH_UNSEEN 0.125
 
@@ -130,15 +132,16 @@ void photons_place(struct render *render, const ps_photon *photons, size_t n, st
     place(render, render->splatting ? &render->splatter : NULL, scene, photons, n, splats);
 }
 
-/* For points, whose light is averaged before it is seen: no pixel's size limits the radius, no light from nearby
- * is left to gather rays, and caustics are as wide as other light. */
+/* For points, whose light is averaged before it is seen: no pixel's size limits the radius, no
+ * light from nearby is left to gather rays, and caustics are as wide as other light. */
 static void place_for_points(struct render *render, const ps_photon *photons, size_t n,
                              struct splat *splats)
 {
     place(render, &render->points, place_scene(render), photons, n, splats);
 }
 
-/* --- services --------------------------------------------------------------------------------------- */
+/* --- services
+ * --------------------------------------------------------------------------------------- */
 
 static ps_result host_begin_splats(const ps_host *host, uint32_t n)
 {

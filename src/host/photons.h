@@ -4,8 +4,8 @@
 
 #include "render/state.h"
 
-/* The splats of n photons, by the chosen visibility; those that may light nothing in view have radius 0 while the
- * render is splatting. Main thread. */
+/* The splats of n photons, by the chosen visibility; those that may light nothing in view have
+ * radius 0 while the render is splatting. Main thread. */
 void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats);
 
 #endif

@@ -168,7 +168,8 @@ static void host_evaluate_bsdf(const ps_host *host, ps_direction direction, cons
                                       direction, &rays[i], &hits[i], directions[i]);
 }
 
-/* Shadow rays alone, and fewer choices than for a point that is seen: there are many such points behind each pixel. */
+/* Shadow rays alone, and fewer choices than for a point that is seen: there are many such points
+ * behind each pixel. */
 static struct lighting lighting_of_paths(const struct render *render)
 {
     return (struct lighting){

@@ -1,4 +1,5 @@
-/* splats.c: the filter's profile, the interleaving and the splatter, made when splats are first wanted. */
+/* splats.c: the filter's profile, the interleaving and the splatter, made when splats are first
+ * wanted. */
 #include "host/splats.h"
 
 #include "placement/placement.h"
@@ -71,8 +72,9 @@ static ps_result create_splatter(struct render *render, struct interleaved layou
     return result;
 }
 
-/* Interleaving pays where n pixels are little beside a splat. In small pictures it blurs edges and adds noise,
- * and splats shrink as the number of paths grows. Subsets by powers of two share out paths most evenly. */
+/* Interleaving pays where n pixels are little beside a splat. In small pictures it blurs edges and
+ * adds noise, and splats shrink as the number of paths grows. Subsets by powers of two share out
+ * paths most evenly. */
 #define SIDE_PER_STEP 150.0 /* pixels of the picture's side for each step of n */
 #define MANY_PATHS 3000000
 #define MOST_FOR_MANY 4
@@ -103,8 +105,8 @@ void splats_drop_pixels(struct render *render)
     render->has_splatter = false;
 }
 
-/* Makes the splatter, or keeps that of the pass before. Short-range light stays as noisy when splats become small,
- * and is averaged as widely. */
+/* Makes the splatter, or keeps that of the pass before. Short-range light stays as noisy when
+ * splats become small, and is averaged as widely. */
 static ps_result begin_interleaved(struct render *render, uint32_t n, struct error *error)
 {
     bool many = render->photons.path_count > MANY_PATHS;

@@ -1,6 +1,7 @@
 /* tiles.c: the services for the tiles of the picture: the G-buffer, and what estimators add to it.
  *
- * Plugins know tiles by their numbers in the picture, of which a part may be there (film/gbuffer.h).
+ * Plugins know tiles by their numbers in the picture, of which a part may be there
+ * (film/gbuffer.h).
  */
 #include "host/host.h"
 

@@ -1,7 +1,8 @@
-/* chromaticities.c: from a picture's primaries to those of Rec.709 with white D65, in which psplat computes.
+/* chromaticities.c: from a picture's primaries to those of Rec.709 with white D65, in which psplat
+ * computes.
  *
- * Through CIE XYZ, with Bradford's adaptation of white (Lam 1985), as SMPTE RP 177 derives matrices from chromaticities.
- * What lies outside of Rec.709's gamut gets negative components, which stay.
+ * Through CIE XYZ, with Bradford's adaptation of white (Lam 1985), as SMPTE RP 177 derives matrices
+ * from chromaticities. What lies outside of Rec.709's gamut gets negative components, which stay.
  */
 #include "image/raster_decode.h"
 

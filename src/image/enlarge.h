@@ -10,8 +10,8 @@ struct enlargement {
     size_t width, height;
 };
 
-/* Makes `large` of the channels that `keeps` is true of, without attributes; the caller releases it. When out of memory,
- * PS_ERROR_MEMORY, there is none. */
+/* Makes `large` of the channels that `keeps` is true of, without attributes; the caller releases
+ * it. When out of memory, PS_ERROR_MEMORY, there is none. */
 ps_result image_enlarge(const struct image *image, struct enlargement to,
                         bool (*keeps)(const char *channel), struct workers *workers,
                         struct image *large, struct error *error);

@@ -1,12 +1,13 @@
-/* exposure.c: the log-average luminance of a picture is brought to middle grey (Reinhard et al. 2002, Photographic tone
- * reproduction for digital images, equation 1).
+/* exposure.c: the log-average luminance of a picture is brought to middle grey (Reinhard et al.
+ * 2002, Photographic tone reproduction for digital images, equation 1).
  *
  *     stops = log2(0.18) - mean of log2 L
  *
- * Black pixels, such as the void around a scene, are left out, where Reinhard adds a small number to each; and so are
- * the darkest and the brightest hundredth of the others, among which are fireflies and lights. A histogram finds these:
- * the upper bits of a float number its octave and 64 steps in it, so the mean is exact to 0.012 stops, and counts
- * do not depend on the order of pixels.
+ * Black pixels, such as the void around a scene, are left out, where Reinhard adds a small number
+ * to each; and so are the darkest and the brightest hundredth of the others, among which are
+ * fireflies and lights. A histogram finds these: the upper bits of a float number its octave and 64
+ * steps in it, so the mean is exact to 0.012 stops, and counts do not depend on the order of
+ * pixels.
  */
 #include "image/exposure.h"
 

@@ -4,7 +4,8 @@
 
 #include <stddef.h>
 
-/* Stops by which the log-average luminance of n pixels of red, green and blue becomes 0.18. 0 where all are black. */
+/* Stops by which the log-average luminance of n pixels of red, green and blue becomes 0.18. 0 where
+ * all are black. */
 double exposure_automatic(const float *const light[3], size_t n);
 
 #endif

@@ -1,8 +1,8 @@
-/* exr_chunks.c: compression takes nearly all of the time of writing a picture, so chunks are shared out among threads, each
- * with an encoder of its own on the one context, as the library has it. A thread that is done with a chunk
- * waits for its turn before writing it: the file has its chunks in order, is the same for any number
- * of threads, and no more than one chunk a thread is in memory. Chunks are handed out in order, so
- * whoever holds the first that is missing never waits.
+/* exr_chunks.c: compression takes nearly all of the time of writing a picture, so chunks are shared
+ * out among threads, each with an encoder of its own on the one context, as the library has it. A
+ * thread that is done with a chunk waits for its turn before writing it: the file has its chunks in
+ * order, is the same for any number of threads, and no more than one chunk a thread is in memory.
+ * Chunks are handed out in order, so whoever holds the first that is missing never waits.
  */
 #include "image/exr_output.h"
 

@@ -1,4 +1,5 @@
-/* exr_header.c: which part and channels of an OpenEXR file are read, and whether it can be what its header says.
+/* exr_header.c: which part and channels of an OpenEXR file are read, and whether it can be what its
+ * header says.
  *
  * Of several parts, for rasters alone, the first with colours is read, or that of a layer.
  */
@@ -70,7 +71,8 @@ static ps_result check_expansion_of_file(const struct exr_source *source, uint64
     return raster_check_expansion(&file, decoded, expansion, source->error);
 }
 
-/* A header of a few hundred bytes may claim gigabytes, which nobody should have to allocate first. */
+/* A header of a few hundred bytes may claim gigabytes, which nobody should have to allocate
+ * first. */
 static ps_result check_expansion(const struct exr_source *source)
 {
     exr_compression_t compression = EXR_COMPRESSION_NONE;
@@ -190,7 +192,8 @@ static exr_result_t read_facts(struct exr_source *source)
     return code;
 }
 
-/* Where the picture lies in the display window, if it does and that begins at (0, 0); else it is all there is. */
+/* Where the picture lies in the display window, if it does and that begins at (0, 0); else it is
+ * all there is. */
 static exr_result_t read_place(struct exr_source *source)
 {
     exr_attr_box2i_t display, data = source->window;
@@ -306,7 +309,8 @@ static ps_result add_attributes(struct exr_source *source)
     return exr_source_explain(source, code);
 }
 
-/* Without the picture's own channels the file is read to its end, and the caller says what is missing. */
+/* Without the picture's own channels the file is read to its end, and the caller says what is
+ * missing. */
 static ps_result check_layer(const struct exr_source *source)
 {
     char layers[256];

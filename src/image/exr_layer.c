@@ -1,8 +1,9 @@
 /* exr_layer.c: which channels of an OpenEXR file make up a layer.
  *
- * By the format's convention ("Technical introduction to OpenEXR", on layers) a channel's name is that of its layer, a dot and
- * the channel's own: "diffuse.R". In a file of several parts the layer may also be a part's name, in which channels bear
- * their own names alone. Without a layer the picture is what the plain names R, G, B, Y and A say.
+ * By the format's convention ("Technical introduction to OpenEXR", on layers) a channel's name is
+ * that of its layer, a dot and the channel's own: "diffuse.R". In a file of several parts the layer
+ * may also be a part's name, in which channels bear their own names alone. Without a layer the
+ * picture is what the plain names R, G, B, Y and A say.
  */
 #include "image/exr_layer.h"
 
@@ -33,7 +34,8 @@ bool exr_layer_wants(const char *layer, bool is_part, const char *channel)
     return suffix && *known;
 }
 
-/* --- what there is, for messages ------------------------------------------------------------------ */
+/* --- what there is, for messages
+ * ------------------------------------------------------------------ */
 
 struct listing {
     char *text;
@@ -55,7 +57,8 @@ static void add_name(struct listing *listing, const char *name, size_t length)
     listing->used += (size_t)printed;
 }
 
-/* Channels are sorted, so those of a layer stand together; a channel without a dot is a layer of its own. */
+/* Channels are sorted, so those of a layer stand together; a channel without a dot is a layer of
+ * its own. */
 static void add_part(struct listing *listing, exr_const_context_t context, int part, int parts)
 {
     const exr_attr_chlist_t *list = NULL;

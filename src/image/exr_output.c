@@ -73,7 +73,8 @@ ps_result exr_output_explain(const struct exr_output *output, exr_result_t code,
                      exr_get_default_error_message(code));
 }
 
-/* --- the header -------------------------------------------------------------------------------- */
+/* --- the header
+ * -------------------------------------------------------------------------------- */
 
 /* What the format, or the library's 32-bit sizes, cannot hold. */
 static ps_result check_picture(const struct image *image, const char *path, struct error *error)
@@ -169,7 +170,8 @@ static ps_result write_header(const struct exr_output *output, const struct imag
     return exr_output_explain(output, exr_write_header(context), "the", "header");
 }
 
-/* --- the file ---------------------------------------------------------------------------------- */
+/* --- the file
+ * ---------------------------------------------------------------------------------- */
 
 static ps_result start(struct exr_output *output, const struct image *image, uint32_t tile,
                        enum image_compression compression)

@@ -1,10 +1,11 @@
-/* exr_output.h: an OpenEXR file on its way to the disk: its header, and its chunks, compressed by threads.
+/* exr_output.h: an OpenEXR file on its way to the disk: its header, and its chunks, compressed by
+ * threads.
  *
  * The order of calls matters and is written down nowhere: start, add the part, required attributes,
  * channels, other attributes, header; then for each chunk its information, the encoder (initialised
- * with a thread's first chunk, updated with the others), the planes' pointers *moved to that chunk's
- * first line*, and the run; then finish. Bytes go through output_file rather than the library's own
- * file handling, so that the file appears whole and a failed write says why.
+ * with a thread's first chunk, updated with the others), the planes' pointers *moved to that
+ * chunk's first line*, and the run; then finish. Bytes go through output_file rather than the
+ * library's own file handling, so that the file appears whole and a failed write says why.
  *
  * The library's messages are dropped: its handler runs with the context locked while writing, so it
  * cannot ask for our data; result codes with what was being written tell as much. No capDate: the
@@ -26,13 +27,14 @@ struct exr_output {
     bool failed;         /* a write failed, and `error` already says why */
 };
 
-/* Opens a file and writes its header: channels, attributes and windows are the image's. `tile`: the side of its tiles; 0:
- * scan lines. On failure nothing is left. It must not move until it is closed. */
+/* Opens a file and writes its header: channels, attributes and windows are the image's. `tile`: the
+ * side of its tiles; 0: scan lines. On failure nothing is left. It must not move until it is
+ * closed. */
 ps_result exr_output_open(struct exr_output *output, const char *path, const struct image *image,
                           uint32_t tile, enum image_compression compression, struct error *error);
 
-/* Ends the file, which appears where `result`, that of what was written, is PS_OK, and else is none; returns it unless
- * that fails. */
+/* Ends the file, which appears where `result`, that of what was written, is PS_OK, and else is
+ * none; returns it unless that fails. */
 ps_result exr_output_close(struct exr_output *output, ps_result result, struct error *error);
 
 /* A result for one of the library's, with a message that names what was being written. */

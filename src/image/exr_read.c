@@ -1,11 +1,12 @@
 /* exr_read.c: a flat OpenEXR file to a picture, through the library's C interface.
  *
- * The picture is the data window, wherever that lies; the image says where. Chunks (groups of lines, or tiles) are
- * decoded straight into the planes, which the library converts to float on the way. It could also
- * search a damaged file for chunks that its table does not list; that is switched off, because half
- * a picture that looks whole is worse than an error. The first of the library's messages is the one
- * shown: the later ones follow from it. Rasters are read from memory, others from their file. Of tiles in several levels
- * the largest is read. Where bands are wanted, the planes have the lines of one.
+ * The picture is the data window, wherever that lies; the image says where. Chunks (groups of
+ * lines, or tiles) are decoded straight into the planes, which the library converts to float on the
+ * way. It could also search a damaged file for chunks that its table does not list; that is
+ * switched off, because half a picture that looks whole is worse than an error. The first of the
+ * library's messages is the one shown: the later ones follow from it. Rasters are read from memory,
+ * others from their file. Of tiles in several levels the largest is read. Where bands are wanted,
+ * the planes have the lines of one.
  */
 #include "image/exr_source.h"
 
@@ -62,8 +63,8 @@ static void direct_channels(struct exr_source *source, const exr_chunk_info_t *c
     }
 }
 
-/* The library's own buffers. It takes a chunk of runs that ends too early for a whole one, with what its buffer held before: no
- * other picture's bytes. */
+/* The library's own buffers. It takes a chunk of runs that ends too early for a whole one, with
+ * what its buffer held before: no other picture's bytes. */
 static void *allocate_zeros(exr_transcoding_pipeline_buffer_id_t id, size_t size)
 {
     (void)id;

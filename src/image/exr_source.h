@@ -28,11 +28,13 @@ struct exr_source {
     size_t spare_count;
 };
 
-/* Chooses the part, checks what its header says, and adds its attributes and the channels that are wanted to the image, maybe none
- * where the file's picture is wanted. PS_ERROR_IO, _INVALID or _MEMORY. */
+/* Chooses the part, checks what its header says, and adds its attributes and the channels that are
+ * wanted to the image, maybe none where the file's picture is wanted. PS_ERROR_IO, _INVALID or
+ * _MEMORY. */
 ps_result exr_header_read(struct exr_source *source);
 
-/* A result for one of the library's, with its first message; and that of a file that is not read. */
+/* A result for one of the library's, with its first message; and that of a file that is not
+ * read. */
 ps_result exr_source_explain(const struct exr_source *source, exr_result_t code);
 ps_result exr_source_refuse(const struct exr_source *source, const char *why);
 

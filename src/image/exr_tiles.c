@@ -74,8 +74,8 @@ static size_t in_tiles(size_t pixels)
     return (pixels + EXR_TILE_SIDE - 1) / EXR_TILE_SIDE;
 }
 
-/* The part with the channels of the file, in their order; `zeros`, which are allocated, where it lacks one. Both are freed by
- * the caller in any case. */
+/* The part with the channels of the file, in their order; `zeros`, which are allocated, where it
+ * lacks one. Both are freed by the caller in any case. */
 static ps_result complete(const struct exr_tiles *tiles, const struct image *part,
                           struct image_channel **channels, float **zeros, struct error *error)
 {
@@ -118,7 +118,8 @@ ps_result exr_tiles_add(struct exr_tiles *tiles, const struct image *part, struc
     return result;
 }
 
-/* --- the file ---------------------------------------------------------------------------------- */
+/* --- the file
+ * ---------------------------------------------------------------------------------- */
 
 static void destroy(struct exr_tiles *tiles)
 {

@@ -5,8 +5,9 @@
 #include "base/rectangle.h"
 #include <stdint.h>
 
-/* Copies a part of a picture of 3 bytes a pixel, `width` pixels a row; each pixel becomes a square of
- * zoom * zoom. `magnified`: rows of part.width * zoom pixels; the part must lie in the picture. */
+/* Copies a part of a picture of 3 bytes a pixel, `width` pixels a row; each pixel becomes a
+ * square of zoom * zoom. `magnified`: rows of part.width * zoom pixels; the part must lie in the
+ * picture. */
 void magnify(const uint8_t *rgb, size_t width, struct rectangle part, size_t zoom,
              uint8_t *magnified);
 

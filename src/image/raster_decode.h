@@ -56,21 +56,22 @@ struct exr_facts {
 
 /* Who takes an OpenEXR picture in bands of lines, from the top. */
 struct exr_bands {
-    /* The first `lines` lines of the planes are the next ones; they may be changed. Anything but PS_OK ends the reading. */
+    /* The first `lines` lines of the planes are the next ones; they may be changed. Anything but
+     * PS_OK ends the reading. */
     ps_result (*take)(void *user, const struct image *band, const struct exr_facts *facts,
                       size_t lines, struct error *error);
     void *user;
 };
 
 /* As image_read_exr, from memory, with the limits of a raster, and with messages that start with
- * the path. Only the channels of the layer's picture (exr_layer.h), maybe none where it is the file's. Of several parts the
- * first that has some beside alpha. `bands`: who takes them, so that the image has planes for the lines of one alone in the
- * end; or NULL. */
+ * the path. Only the channels of the layer's picture (exr_layer.h), maybe none where it is the
+ * file's. Of several parts the first that has some beside alpha. `bands`: who takes them, so that
+ * the image has planes for the lines of one alone in the end; or NULL. */
 ps_result exr_read_layer(const struct raster_source *source, const struct exr_bands *bands,
                          struct image *image, struct exr_facts *facts, struct error *error);
 
-/* chromaticities.c: makes the colours in planes of red, green and blue Rec.709's. No-op where the primaries are
- * those, or cannot be. */
+/* chromaticities.c: makes the colours in planes of red, green and blue Rec.709's. No-op where the
+ * primaries are those, or cannot be. */
 void chromaticities_to_rec709(const struct chromaticities *from, float *const planes[3],
                               size_t pixels);
 
@@ -89,7 +90,8 @@ ps_result raster_check_expansion(const struct raster_source *source, uint64_t de
 /* Checks the size that `raster` states, and allocates its samples. */
 ps_result raster_allocate(const char *path, struct raster *raster, struct error *error);
 
-/* Where the rows of a picture go, one after the other from the top: to whoever wants lines, or into the raster. */
+/* Where the rows of a picture go, one after the other from the top: to whoever wants lines, or into
+ * the raster. */
 struct raster_rows {
     const struct raster_lines *lines; /* NULL: into the raster */
     const struct raster *raster;
@@ -97,7 +99,8 @@ struct raster_rows {
     uint32_t done;
 };
 
-/* Checks the size that `raster` states, which is borrowed, and makes room: of its samples, unless lines are wanted. */
+/* Checks the size that `raster` states, which is borrowed, and makes room: of its samples, unless
+ * lines are wanted. */
 ps_result raster_rows_begin(const struct raster_source *source, struct raster *raster,
                             struct raster_rows *rows, struct error *error);
 

@@ -1,8 +1,8 @@
 /* raster_exr.c: the colours of an OpenEXR picture, or of one of its layers.
  *
- * Most files hold half floats, which the
- * reader widens; they are stored as half floats again where that loses nothing. The picture is the display window, as
- * viewers show it, and its colours are made Rec.709's. Only a band of lines has its samples as floats.
+ * Most files hold half floats, which the reader widens; they are stored as half floats again where
+ * that loses nothing. The picture is the display window, as viewers show it, and its colours are
+ * made Rec.709's. Only a band of lines has its samples as floats.
  */
 #include "image/exr_layer.h"
 #include "image/half.h"
@@ -98,8 +98,8 @@ static bool fits_halves(const struct planes *planes, size_t pixels)
     return true;
 }
 
-/* A line of the planes as a row of the raster. Outside of the data window there is nothing: 0, which is transparent where there
- * is alpha. */
+/* A line of the planes as a row of the raster. Outside of the data window there is nothing: 0,
+ * which is transparent where there is alpha. */
 static void store_row(const struct planes *planes, const struct image *image, size_t line,
                       const struct exr_facts *facts, const struct raster *raster, void *row)
 {
@@ -118,7 +118,8 @@ static void store_row(const struct planes *planes, const struct image *image, si
     }
 }
 
-/* A display window may be of any size: one that is much larger than the data takes memory that no data fill. */
+/* A display window may be of any size: one that is much larger than the data takes memory that no
+ * data fill. */
 static ps_result check_display(const char *path, const struct exr_facts *facts, struct error *error)
 {
     ps_result result =
@@ -168,7 +169,8 @@ static void make_usual(const struct planes *planes, const struct exr_facts *fact
 
 /* --- band by band --- */
 
-/* A picture is read once to see whether halves hold its samples, as far as that is open, and once for these. */
+/* A picture is read once to see whether halves hold its samples, as far as that is open, and once
+ * for these. */
 struct reading {
     const struct raster_source *source;
     struct raster raster; /* what is known of it */

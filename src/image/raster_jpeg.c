@@ -122,8 +122,8 @@ static ps_result choose_colors(struct jpeg_job *job)
     }
 }
 
-/* An arithmetic code needs next to nothing for a flat picture, so that no file is too short for the memory that its
- * header asks for; and hardly any program writes it. */
+/* An arithmetic code needs next to nothing for a flat picture, so that no file is too short for the
+ * memory that its header asks for; and hardly any program writes it. */
 static ps_result check_coding(const struct jpeg_job *job)
 {
     if (job->decoder.arith_code)

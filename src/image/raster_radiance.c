@@ -1,8 +1,9 @@
 /* raster_radiance.c: Radiance HDR pictures, whose lines may be in any order.
  *
- * The header's last line says how (Ward 1991): "-Y 480 +X 640" is 480 lines of 640 pixels, top line first, each from the
- * left. Either axis may come first, with either sign. stb_image knows this one alone, and lines are coded alike in all;
- * so it gets a copy whose header says that, and the pixels are put in place afterwards.
+ * The header's last line says how (Ward 1991): "-Y 480 +X 640" is 480 lines of 640 pixels, top line
+ * first, each from the left. Either axis may come first, with either sign. stb_image knows this one
+ * alone, and lines are coded alike in all; so it gets a copy whose header says that, and the pixels
+ * are put in place afterwards.
  */
 #include "image/raster_decode.h"
 
@@ -19,7 +20,8 @@ struct axis {
     uint32_t length;
 };
 
-/* Where it stands in the file, and what it says: the axis of the lines, and that along each of them. */
+/* Where it stands in the file, and what it says: the axis of the lines, and that along each of
+ * them. */
 struct resolution {
     size_t start, end; /* without its newline */
     struct axis lines, along;

@@ -1,13 +1,15 @@
 /* raster_stb.c: TGA, BMP and Radiance HDR pictures, through stb_image.
  *
- * stb_image goes on with zeros, or with memory that nobody wrote, where a file ends too early. So it reads
- * through callbacks here, which see whether it asks for more than there is; such a picture is refused. It fills
- * its own small buffer with what there is, be that less than the buffer holds, and everything else it asks for
- * it needs whole; its first read is into that buffer, by whose address the two are told apart. Beyond the end it is
- * given newlines: of zeros Radiance's reader would take runs of length 0 for ever.
+ * stb_image goes on with zeros, or with memory that nobody wrote, where a file ends too early. So
+ * it reads through callbacks here, which see whether it asks for more than there is; such a picture
+ * is refused. It fills its own small buffer with what there is, be that less than the buffer holds,
+ * and everything else it asks for it needs whole; its first read is into that buffer, by whose
+ * address the two are told apart. Beyond the end it is given newlines: of zeros Radiance's reader
+ * would take runs of length 0 for ever.
  *
- * Radiance: 32 bits of mantissas and exponent, plain or in runs, top line first (raster_radiance.c has the rest); EXPOSURE
- * and PRIMARIES are not looked at. stb_image knows neither the runs of before 1991 nor XYZE.
+ * Radiance: 32 bits of mantissas and exponent, plain or in runs, top line first (raster_radiance.c
+ * has the rest); EXPOSURE and PRIMARIES are not looked at. stb_image knows neither the runs of
+ * before 1991 nor XYZE.
  */
 #include "image/raster_decode.h"
 
@@ -15,8 +17,8 @@
 #include <stb_image.h>
 #include <string.h>
 
-/* The most that comes out of one byte: of two bytes in a run of TGA's 128 pixels that are indices of colours with
- * alpha, 512; runs of Radiance reach 190. */
+/* The most that comes out of one byte: of two bytes in a run of TGA's 128 pixels that are indices
+ * of colours with alpha, 512; runs of Radiance reach 190. */
 #define EXPANSION 256
 
 struct reading {
@@ -109,8 +111,8 @@ static ps_result read_size(const struct raster_source *source, size_t sample_byt
                                   EXPANSION, error);
 }
 
-/* Some programs leave 0 in the byte that would be alpha, and say in the header that it is none; others say so of one
- * that counts. */
+/* Some programs leave 0 in the byte that would be alpha, and say in the header that it is none;
+ * others say so of one that counts. */
 static void mend_alpha(const struct raster_source *source, struct raster *raster)
 {
     unsigned char *samples = raster->samples;

@@ -4,8 +4,8 @@
 #ifdef PSPLAT_WEBP
 #include <webp/decode.h>
 
-/* Both ways of coding need next to nothing for a flat picture. Small ones are let through whatever the size of
- * their file; of larger ones no real file is this much smaller than its samples. */
+/* Both ways of coding need next to nothing for a flat picture. Small ones are let through whatever
+ * the size of their file; of larger ones no real file is this much smaller than its samples. */
 #define SMALL_PICTURE (UINT64_C(4) << 20) /* bytes */
 #define EXPANSION 4096
 

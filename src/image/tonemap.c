@@ -1,10 +1,10 @@
 /* tonemap.c: linear radiance to 8-bit display values.
  *
  * Exposure, then a curve on each channel, then the sRGB transfer function, then rounding to the
- * nearest of 256 steps, or for pictures, which are dithered, to one of the two nearest; in double, so that the rounding is that of
- * the exact value. Channels are
- * treated alike and apart: hues shift towards white where they saturate, which is what film does,
- * and what the thesis's clipped pictures do.
+ * nearest of 256 steps, or for pictures, which are dithered, to one of the two nearest; in double,
+ * so that the rounding is that of the exact value. Channels are treated alike and apart: hues shift
+ * towards white where they saturate, which is what film does, and what the thesis's clipped
+ * pictures do.
  */
 #include "image/tonemap.h"
 
@@ -46,8 +46,9 @@ static uint8_t display_byte(float linear, double factor, enum tone_curve curve, 
     return (uint8_t)(255.0 * srgb_from_linear(exposed) + 0.5 + dither);
 }
 
-/* Less than half a step of the 256 either way: interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of
- * Duty: Advanced Warfare"), whose values are spread evenly over any few neighbouring pixels. */
+/* Less than half a step of the 256 either way: interleaved gradient noise (Jimenez 2014, "Next
+ * generation post processing in Call of Duty: Advanced Warfare"), whose values are spread evenly
+ * over any few neighbouring pixels. */
 static double dither_at(uint32_t x, uint32_t y)
 {
     double inner = 0.06711056 * (double)x + 0.00583715 * (double)y;

@@ -12,9 +12,10 @@ float tonemap_srgb(float linear);
 /* Its inverse, display to linear; beyond 1 the formula goes on, negative values are mirrored. */
 double tonemap_linear(double display);
 
-/* Display values of a picture's row, from pixel (x, y) on, without a curve: n linear values each, 3n bytes out. They are dithered,
- * since noiseless walls would show the steps between bytes as bands: the mean over a few pixels is right. What lies on a step stays
- * there: 0 and 1 always do. The same pixel has the same dither, whatever part of the picture is written. */
+/* Display values of a picture's row, from pixel (x, y) on, without a curve: n linear values each,
+ * 3n bytes out. They are dithered, since noiseless walls would show the steps between bytes as
+ * bands: the mean over a few pixels is right. What lies on a step stays there: 0 and 1 always do.
+ * The same pixel has the same dither, whatever part of the picture is written. */
 void tonemap_row(const float *red, const float *green, const float *blue, size_t n, uint32_t x,
                  uint32_t y, uint8_t *rgb);
 

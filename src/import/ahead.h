@@ -1,7 +1,7 @@
 /* ahead.h: a mesh file that is read before the scene that names it.
  *
- * The scene around a lone model (model/model.h) is written by what is in the model. When that scene is read, the file need not
- * be read again.
+ * The scene around a lone model (model/model.h) is written by what is in the model. When that scene
+ * is read, the file need not be read again.
  */
 #ifndef IMPORT_AHEAD_H
 #define IMPORT_AHEAD_H
@@ -19,8 +19,8 @@ struct mesh_ahead {
 ps_result mesh_read_ahead(const struct mesh_request *request, struct mesh_ahead *ahead,
                           struct error *error);
 
-/* Hands out what was read ahead if the same is asked for, as mesh_import would: once, with the request's origin. False, and
- * nothing else, where it is another request, or `ahead` is NULL. */
+/* Hands out what was read ahead if the same is asked for, as mesh_import would: once, with the
+ * request's origin. False, and nothing else, where it is another request, or `ahead` is NULL. */
 bool mesh_take_ahead(struct mesh_ahead *ahead, const struct mesh_request *request,
                      struct scene_description *fragment, struct mesh_report *report);
 

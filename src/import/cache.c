@@ -21,14 +21,16 @@ struct header {
 
 static const char magic[8] = "psplatM";
 
-/* --- names ----------------------------------------------------------------------------------------- */
+/* --- names
+ * ----------------------------------------------------------------------------------------- */
 
 static void add(XXH3_state_t *key, const void *bytes, size_t size)
 {
     (void)XXH3_64bits_update(key, bytes, size);
 }
 
-/* PSPLAT_IMPORTER is a digest of the sources that fill descriptions. Structs are stored as they are in memory. */
+/* PSPLAT_IMPORTER is a digest of the sources that fill descriptions. Structs are stored as they are
+ * in memory. */
 static void add_program(XXH3_state_t *key)
 {
     const uint64_t numbers[] = {
@@ -84,7 +86,8 @@ struct mesh_cache_entry mesh_cache_entry(const struct mesh_request *request)
     return entry;
 }
 
-/* --- loading --------------------------------------------------------------------------------------- */
+/* --- loading
+ * --------------------------------------------------------------------------------------- */
 
 static bool is_whole(int file)
 {
@@ -119,7 +122,8 @@ bool mesh_cache_load(const struct mesh_cache_entry *entry, const struct mesh_req
     return holds;
 }
 
-/* --- storing --------------------------------------------------------------------------------------- */
+/* --- storing
+ * --------------------------------------------------------------------------------------- */
 
 static ps_result copy(int transfer, struct output_file *file, struct error *error)
 {

@@ -1,9 +1,10 @@
 /* cache.h: what was made of mesh files, kept in a folder for the next time.
  *
- * An entry's name stands for the file's bytes, for the request, and for the code that imports. In the entry are the
- * content, as transfer.c moves it, and all that the import asked of the disk (looks.h): libraries, buffers, whether
- * textures are there. It counts while the disk says the same. Entries are whole or not there (output_file.h), and any
- * number of processes can use one folder. What lies in it is believed, so the folder has to be one's own.
+ * An entry's name stands for the file's bytes, for the request, and for the code that imports. In
+ * the entry are the content, as transfer.c moves it, and all that the import asked of the disk
+ * (looks.h): libraries, buffers, whether textures are there. It counts while the disk says the
+ * same. Entries are whole or not there (output_file.h), and any number of processes can use one
+ * folder. What lies in it is believed, so the folder has to be one's own.
  */
 #ifndef IMPORT_CACHE_H
 #define IMPORT_CACHE_H

@@ -57,7 +57,8 @@ static ps_result add(struct mesh_job *job, struct camera_description camera, con
     return camera.name ? PS_OK : mesh_out_of_memory(job, strlen(name));
 }
 
-/* --- glTF ----------------------------------------------------------------------------------------- */
+/* --- glTF
+ * ----------------------------------------------------------------------------------------- */
 
 static ps_result add_gltf_camera(struct mesh_job *job, size_t node, const struct json *source)
 {
@@ -90,7 +91,8 @@ static ps_result read_gltf_cameras(struct mesh_job *job)
     return result;
 }
 
-/* --- other formats -------------------------------------------------------------------------------- */
+/* --- other formats
+ * -------------------------------------------------------------------------------- */
 
 static ps_result add_assimp_camera(struct mesh_job *job, unsigned index)
 {

@@ -1,7 +1,7 @@
 /* check.c: faces and nodes of what assimp returned.
  *
- * Indices are checked since a wrong one need not crash: it can read what lies beside the vertices. Splitting
- * polygons is assimp's, follows indices without looking, and so comes after a check.
+ * Indices are checked since a wrong one need not crash: it can read what lies beside the vertices.
+ * Splitting polygons is assimp's, follows indices without looking, and so comes after a check.
  */
 #include "import/check.h"
 
@@ -12,7 +12,8 @@ static ps_result complain(struct mesh_job *job, const char *what)
     return error_set(job->error, PS_ERROR_INVALID, "%s: %s", job->request->path, what);
 }
 
-/* --- faces -------------------------------------------------------------------------------------- */
+/* --- faces
+ * -------------------------------------------------------------------------------------- */
 
 static ps_result check_mesh(struct mesh_job *job, const struct aiMesh *mesh, bool *has_polygons)
 {
@@ -55,7 +56,8 @@ ps_result mesh_check_faces(struct mesh_job *job, bool *has_polygons)
     return PS_OK;
 }
 
-/* --- nodes -------------------------------------------------------------------------------------- */
+/* --- nodes
+ * -------------------------------------------------------------------------------------- */
 
 static struct affine affine_of_matrix(const struct aiMatrix4x4 *m)
 {

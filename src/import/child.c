@@ -44,8 +44,8 @@ void child_extend_time(unsigned seconds)
         set_limit(RLIMIT_CPU, limit.rlim_cur + seconds);
 }
 
-/* A crash is reported by the parent: no dump, no words of the C++ library, no handler of the program. A
- * sanitizer's report is for developers, and stays. */
+/* A crash is reported by the parent: no dump, no words of the C++ library, no handler of the
+ * program. A sanitizer's report is for developers, and stays. */
 static void prepare(const struct child_limits *limits)
 {
     static const int signals[] = {SIGABRT, SIGSEGV, SIGBUS,  SIGFPE, SIGILL,

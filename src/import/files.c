@@ -1,7 +1,7 @@
 /* files.c: reads whole files, from the disk or from a list.
  *
- * Whole, since OBJ and glTF are read here too, and so that a pipe or a device under the name of a mesh is
- * refused before anything waits for it.
+ * Whole, since OBJ and glTF are read here too, and so that a pipe or a device under the name of a
+ * mesh is refused before anything waits for it.
  */
 #include "import/files.h"
 
@@ -158,7 +158,8 @@ bool mesh_files_exist(struct mesh_files *files, const char *path)
     return there;
 }
 
-/* --- letter case ------------------------------------------------------------------------------- */
+/* --- letter case
+ * ------------------------------------------------------------------------------- */
 
 /* Makes `name`, which is in the folder, what the folder calls it. */
 static bool match_entry(const char *folder, char *name)
@@ -239,7 +240,8 @@ bool mesh_files_match_case(struct mesh_files *files, char *path, size_t folder)
     return files->memory ? match_in_memory(files, path) : look_for_case(files, path, folder);
 }
 
-/* --- the first bytes --------------------------------------------------------------------------- */
+/* --- the first bytes
+ * --------------------------------------------------------------------------- */
 
 static size_t peek_on_disk(const char *path, const char *folder, unsigned char *bytes, size_t size)
 {

@@ -32,20 +32,21 @@ struct mesh_files {
 ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mesh_file **file,
                           struct error *error);
 
-/* As many threads as reading the file keeps busy: one for each MiB, and no more than there are processors. */
+/* As many threads as reading the file keeps busy: one for each MiB, and no more than there are
+ * processors. */
 ps_result mesh_file_workers(const struct mesh_file *file, struct workers **workers,
                             struct error *error);
 
-/* Adds one of that path, which hides one that may be there; `bytes` come from malloc, with a zero after them, and are
- * taken over in any case. */
+/* Adds one of that path, which hides one that may be there; `bytes` come from malloc, with a zero
+ * after them, and are taken over in any case. */
 ps_result mesh_files_add(struct mesh_files *files, const char *path, char *bytes, size_t length,
                          struct error *error);
 
 /* Whether there is a regular file of that path. */
 bool mesh_files_exist(struct mesh_files *files, const char *path);
 
-/* Whether there is one whose path has other letter case beyond the first `folder` bytes; `path` becomes that: of several
- * the first by strcmp. */
+/* Whether there is one whose path has other letter case beyond the first `folder` bytes; `path`
+ * becomes that: of several the first by strcmp. */
 bool mesh_files_match_case(struct mesh_files *files, char *path, size_t folder);
 
 /* The first bytes of such a file, at most `size` (up to MESH_PEEK_MOST): how many. */

@@ -8,7 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-/* `up` is the axis that does by custom, where assimp does not turn it to y itself: prints lie on x and y. */
+/* `up` is the axis that does by custom, where assimp does not turn it to y itself: prints lie on x
+ * and y. */
 struct row {
     const char *extension;
     enum mesh_format format;

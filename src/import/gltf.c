@@ -1,9 +1,11 @@
-/* gltf.c: from the text to the tree, through the scene's nodes, and what of it assimp is not to see. */
+/* gltf.c: from the text to the tree, through the scene's nodes, and what of it assimp is not to
+ * see. */
 #include "import/gltf_data.h"
 
 #include <string.h>
 
-/* --- the document ------------------------------------------------------------------------------ */
+/* --- the document
+ * ------------------------------------------------------------------------------ */
 
 static const char *const known_extensions[] = {
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
@@ -51,7 +53,8 @@ static ps_result check_document(const struct gltf *gltf, struct error *error)
     return check_required_extensions(gltf, error);
 }
 
-/* --- what meshes are made of --------------------------------------------------------------------- */
+/* --- what meshes are made of
+ * --------------------------------------------------------------------- */
 
 #define DRACO "KHR_draco_mesh_compression"
 
@@ -60,7 +63,8 @@ bool gltf_is_draco(const struct json *primitive)
     return json_member(json_member(primitive, "extensions"), DRACO) != NULL;
 }
 
-/* --- the walk ---------------------------------------------------------------------------------- */
+/* --- the walk
+ * ---------------------------------------------------------------------------------- */
 
 /* A walk through the nodes in assimp's order. */
 struct walk {
@@ -271,7 +275,8 @@ static void hide_rest(const struct gltf *gltf)
     hide_all(gltf->root, of_root);
 }
 
-/* --- all ----------------------------------------------------------------------------------------- */
+/* --- all
+ * ----------------------------------------------------------------------------------------- */
 
 static ps_result prepare(struct gltf *gltf, struct error *error)
 {

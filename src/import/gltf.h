@@ -1,10 +1,11 @@
 /* gltf.h: a glTF 2 file's JSON, for what assimp does not give.
  *
- * Cameras and lights are read from it since assimp gives a light or camera that several nodes share to
- * one of them only, and a field of view that is wrong for wide pictures; emission strength since assimp
- * does not know it. What psplat does not use (skins, animations, morph targets, further sets of colours
- * and texture coordinates) or reads itself is hidden from assimp, which is given a JSON that is written anew from the
- * tree; what assimp cannot read of buffers and textures is changed there (gltf_unpack.c). The tree stays the file's.
+ * Cameras and lights are read from it since assimp gives a light or camera that several nodes share
+ * to one of them only, and a field of view that is wrong for wide pictures; emission strength since
+ * assimp does not know it. What psplat does not use (skins, animations, morph targets, further sets
+ * of colours and texture coordinates) or reads itself is hidden from assimp, which is given a JSON
+ * that is written anew from the tree; what assimp cannot read of buffers and textures is changed
+ * there (gltf_unpack.c). The tree stays the file's.
  */
 #ifndef IMPORT_GLTF_H
 #define IMPORT_GLTF_H
@@ -14,7 +15,8 @@
 
 #define GLTF_DEPTH 256
 
-/* What the nodes of a file place, primitive by primitive, with all instances; as many as a scene has. */
+/* What the nodes of a file place, primitive by primitive, with all instances; as many as a scene
+ * has. */
 #define MESH_OBJECTS 1000000
 
 struct gltf_bytes {
@@ -42,17 +44,18 @@ struct gltf {
     bool single_root;      /* else assimp puts a node above all */
     size_t triangle_count; /* of all meshes, each once */
     bool draco;            /* some are compressed by it */
-    bool
-        draco_integers; /* of some, normals or texture coordinates are, which are hidden from assimp */
+    /* Of some, normals or texture coordinates are, which are hidden from assimp. */
+    bool draco_integers;
 };
 
-/* Reads the file's JSON, and changes the file into what assimp is to read. PS_ERROR_INVALID, _IO or _MEMORY with a
- * message; released in any case, before `files`. */
+/* Reads the file's JSON, and changes the file into what assimp is to read. PS_ERROR_INVALID, _IO or
+ * _MEMORY with a message; released in any case, before `files`. */
 ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, struct mesh_files *files,
                     bool binary, struct error *error);
 void gltf_release(struct gltf *gltf);
 
-/* The primitive of which assimp made its mesh of that index, of `mesh_count`; NULL where they are not as many. */
+/* The primitive of which assimp made its mesh of that index, of `mesh_count`; NULL where they are
+ * not as many. */
 const struct json *gltf_primitive(const struct gltf *gltf, size_t index, size_t mesh_count);
 
 /* Whether a primitive is compressed by KHR_draco_mesh_compression, which assimp unpacks. */
@@ -61,7 +64,8 @@ bool gltf_is_draco(const struct json *primitive);
 /* The buffer inside of a binary file; false where there is none. */
 bool gltf_binary_chunk(const struct gltf *gltf, struct gltf_bytes *bytes);
 
-/* gltf_unpack.c: changes the tree for assimp, and adds a file with the numbers that it then names. */
+/* gltf_unpack.c: changes the tree for assimp, and adds a file with the numbers that it then
+ * names. */
 ps_result gltf_unpack(struct gltf *gltf, struct error *error);
 
 /* Whether the colours of a primitive have an alpha. */

@@ -57,7 +57,8 @@ static void put_little_endian(char *bytes, size_t value)
         bytes[i] = (char)(value >> 8 * i & 0xff);
 }
 
-/* In the place of the old JSON, with blanks after it; in a file that is made longer where it needs to be. */
+/* In the place of the old JSON, with blanks after it; in a file that is made longer where it needs
+ * to be. */
 static ps_result replace_chunk(struct mesh_file *file, const struct json_text *old,
                                const char *text, size_t length, struct error *error)
 {

@@ -1,7 +1,7 @@
 /* gltf_data.c: from the JSON to the bytes, each bound checked.
  *
- * A buffer's file, or the bytes of its data URI, are kept until the import's end; a binary file's own buffer is
- * looked up each time, since the file's bytes may move.
+ * A buffer's file, or the bytes of its data URI, are kept until the import's end; a binary file's
+ * own buffer is looked up each time, since the file's bytes may move.
  */
 #include "import/gltf_data.h"
 
@@ -18,7 +18,8 @@ ps_result gltf_refuse(struct error *error, const char *what)
     return error_set(error, PS_ERROR_INVALID, "glTF: %s", what);
 }
 
-/* --- buffers ----------------------------------------------------------------------------------- */
+/* --- buffers
+ * ----------------------------------------------------------------------------------- */
 
 static int base64_digit(char c)
 {
@@ -120,7 +121,8 @@ static ps_result read_part(struct gltf *gltf, const struct json *part, struct gl
     return PS_OK;
 }
 
-/* --- room ---------------------------------------------------------------------------------------- */
+/* --- room
+ * ---------------------------------------------------------------------------------------- */
 
 ps_result gltf_take_room(struct gltf *gltf, size_t bytes, void **room, struct error *error)
 {
@@ -136,7 +138,8 @@ ps_result gltf_take_room(struct gltf *gltf, size_t bytes, void **room, struct er
     return *room ? PS_OK : error_memory(error, bytes, "the numbers of a mesh file");
 }
 
-/* --- views --------------------------------------------------------------------------------------- */
+/* --- views
+ * --------------------------------------------------------------------------------------- */
 
 static const struct json *view_of(const struct gltf *gltf, size_t index)
 {
@@ -178,7 +181,8 @@ static ps_result read_view(struct gltf *gltf, size_t index, struct gltf_bytes *b
     return bytes->bytes ? PS_OK : read_part(gltf, view, bytes, error);
 }
 
-/* --- accessors ----------------------------------------------------------------------------------- */
+/* --- accessors
+ * ----------------------------------------------------------------------------------- */
 
 static size_t component_size(enum gltf_component type)
 {

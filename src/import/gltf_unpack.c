@@ -1,10 +1,11 @@
 /* gltf_unpack.c: the document as assimp can read it.
  *
- * assimp copies integers into floats bit by bit, and does not know EXT_meshopt_compression. So coordinates that are
- * integers, and views that are packed, are unpacked into a buffer of their own, a file that exists for assimp alone;
- * the JSON names that in place of what the file has. So are accessors without a view, which are zeros (3.6.2.1) and which
- * assimp leaves out. Pictures that only an extension of a texture names become its
- * source: a kind that is not read is told like any other.
+ * assimp copies integers into floats bit by bit, and does not know EXT_meshopt_compression. So
+ * coordinates that are integers, and views that are packed, are unpacked into a buffer of their
+ * own, a file that exists for assimp alone; the JSON names that in place of what the file has. So
+ * are accessors without a view, which are zeros (3.6.2.1) and which assimp leaves out. Pictures
+ * that only an extension of a texture names become its source: a kind that is not read is told like
+ * any other.
  */
 #include "import/gltf_data.h"
 
@@ -55,7 +56,8 @@ static struct json *array_of(const struct gltf *gltf, const char *name)
     return array && array->kind == JSON_ARRAY ? array : NULL;
 }
 
-/* --- views that are packed --------------------------------------------------------------------- */
+/* --- views that are packed
+ * --------------------------------------------------------------------- */
 
 /* Of an accessor, or a part of one that is sparse. */
 static ps_result unpack_view_of(struct unpacking *unpacking, const struct json *user)
@@ -94,7 +96,8 @@ static ps_result unpack_views_of(struct unpacking *unpacking, size_t index)
     return result;
 }
 
-/* --- integers ---------------------------------------------------------------------------------- */
+/* --- integers
+ * ---------------------------------------------------------------------------------- */
 
 static bool is_integer(const struct gltf *gltf, size_t accessor)
 {
@@ -159,7 +162,8 @@ static ps_result convert_attribute(struct unpacking *unpacking, struct json *att
     return attribute->replacement ? PS_OK : no_memory(unpacking);
 }
 
-/* --- what a mesh uses ---------------------------------------------------------------------------- */
+/* --- what a mesh uses
+ * ---------------------------------------------------------------------------- */
 
 static const struct attribute {
     const char *name;
@@ -214,7 +218,8 @@ static ps_result unpack_primitive(struct unpacking *unpacking, const struct json
     return result;
 }
 
-/* --- textures ------------------------------------------------------------------------------------ */
+/* --- textures
+ * ------------------------------------------------------------------------------------ */
 
 /* What psplat reads comes first, then the file's own choice, then what it does not read. */
 static const struct json *choose_picture(const struct json *texture)
@@ -243,7 +248,8 @@ static ps_result replace_texture(struct unpacking *unpacking, struct json *textu
     return texture->replacement ? PS_OK : no_memory(unpacking);
 }
 
-/* --- the document -------------------------------------------------------------------------------- */
+/* --- the document
+ * -------------------------------------------------------------------------------- */
 
 /* A file beside the mesh that is not there: one that is would be hidden. */
 static bool choose_path(const struct gltf *gltf, char path[LONGEST_PATH])

@@ -1,9 +1,9 @@
 /* import.c: a mesh file's content by way of a child process.
  *
- * assimp crashes, hangs or takes all memory on many broken files, in ways that change with its version.
- * Checks of each format before assimp sees it would be a second reader of each. So assimp and all that
- * follows its pointers run in a child with limits, and what was made of the file comes back through a file
- * in memory.
+ * assimp crashes, hangs or takes all memory on many broken files, in ways that change with its
+ * version. Checks of each format before assimp sees it would be a second reader of each. So assimp
+ * and all that follows its pointers run in a child with limits, and what was made of the file comes
+ * back through a file in memory.
  */
 #include "import/import.h"
 
@@ -19,7 +19,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Of the machine's memory: a file's content is there twice at the end, with the child's own work. */
+/* Of the machine's memory: a file's content is there twice at the end, with the child's own
+ * work. */
 #define SHARE_OF_MEMORY 0.5
 
 #define SECONDS 20 /* of processor time, and one for each MiB of the files (source.c) */

@@ -1,12 +1,13 @@
 /* import.h: takes geometry, materials, cameras and lights from a mesh file.
  *
- * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; format.h lists them), but for the geometry of
- * OBJ and of binary PLY (obj.h, ply.h), in a child process: a file on which it crashes, or takes too long, is an error
- * like any other. Texture coordinates come with v upwards; normals are the file's, or those of its smoothing groups, or
- * by the angle of edges, or none. Cameras and lights are carried into the scene. Where request maps change lengths by a factor s, intensities change
- * by s^2, so that the picture stays the same; radiances and a sun's irradiance stay. Colours are linear,
- * those of textures as their encoding says. No state outside of the arguments; may run in several threads
- * at once.
+ * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; format.h lists them), but
+ * for the geometry of OBJ and of binary PLY (obj.h, ply.h), in a child process: a file on which it
+ * crashes, or takes too long, is an error like any other. Texture coordinates come with v upwards;
+ * normals are the file's, or those of its smoothing groups, or by the angle of edges, or none.
+ * Cameras and lights are carried into the scene. Where request maps change lengths by a factor s,
+ * intensities change by s^2, so that the picture stays the same; radiances and a sun's irradiance
+ * stay. Colours are linear, those of textures as their encoding says. No state outside of the
+ * arguments; may run in several threads at once.
  */
 #ifndef IMPORT_IMPORT_H
 #define IMPORT_IMPORT_H
@@ -26,20 +27,22 @@ struct mesh_request {
     bool diffuse_only; /* leave out the gloss of the file's materials */
     bool srgb_colors;  /* MTL's Kd, Ks and Tf are codes of sRGB; else they are linear */
     double bump_scale; /* times the heights of MTL's bump maps; 0: none */
-    double
-        smooth_angle; /* degrees: parts without normals or smoothing groups are smooth across flatter edges; 0: flat */
+    /* Degrees: parts without normals or smoothing groups are smooth across flatter edges; 0:
+     * flat. */
+    double smooth_angle;
     struct affine placement; /* applied last */
     unsigned
         seconds; /* of processor time beyond what the files' size allows; 0: as many as usual */
     struct origin origin;
 };
 
-/* A number for what is read, and how: requests that differ in it read other files, or the same ones another way, but for a
- * chance of one in 2^64. What to use of them, the folder of a cache, limits and origin are left out. */
+/* A number for what is read, and how: requests that differ in it read other files, or the same ones
+ * another way, but for a chance of one in 2^64. What to use of them, the folder of a cache, limits
+ * and origin are left out. */
 uint64_t mesh_request_digest(const struct mesh_request *request);
 
-/* What parts are made of for which neither the file nor the scene has a material: diffuse grey. Without a name; it owns
- * nothing. */
+/* What parts are made of for which neither the file nor the scene has a material: diffuse grey.
+ * Without a name; it owns nothing. */
 #define MESH_PLAIN_REFLECTANCE 0.5
 struct material_description mesh_material_plain(struct origin origin);
 
@@ -55,10 +58,10 @@ struct mesh_report {
 };
 
 /* Reads the file into a fragment: meshes, objects (OBJECT_MESH), materials (each with its name in
- * the file), textures, cameras, lights, whose indices refer to the fragment's own arrays. Of a material
- * that the file names and lacks only the name is there (material_is_absent); objects without any, or
- * whose materials were not asked for, have material NO_INDEX. The fragment is released with
- * scene_description_release. PS_ERROR_IO, _INVALID or _MEMORY with a message. */
+ * the file), textures, cameras, lights, whose indices refer to the fragment's own arrays. Of a
+ * material that the file names and lacks only the name is there (material_is_absent); objects
+ * without any, or whose materials were not asked for, have material NO_INDEX. The fragment is
+ * released with scene_description_release. PS_ERROR_IO, _INVALID or _MEMORY with a message. */
 ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
                       struct mesh_report *report, struct error *error);
 

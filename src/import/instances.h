@@ -5,8 +5,9 @@
 #include "import/gltf_data.h"
 #include "scene/affine.h"
 
-/* Placements within the node's space, in the arena of `gltf`, each of `meshes`, at least one; not present where no
- * attribute places. `node`: its JSON, or NULL. PS_ERROR_INVALID, _IO or _MEMORY. */
+/* Placements within the node's space, in the arena of `gltf`, each of `meshes`, at least one;
+ * not present where no attribute places. `node`: its JSON, or NULL. PS_ERROR_INVALID, _IO or
+ * _MEMORY. */
 struct mesh_instances {
     bool present;
     struct affine *placements;

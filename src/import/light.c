@@ -1,17 +1,17 @@
 /* light.c: lights, from glTF's JSON or from assimp's list.
  *
- * KHR_lights_punctual counts in candela and lux. 683 lm are taken as one watt, the rate of Blender's
- * exporter ("standard" lighting mode, its default): a light of P watts leaves Blender as
- * 683 P / (4 pi) cd and becomes P / (4 pi) W/sr here, P watts in all; a sun's W/m^2 come back as they
- * were. A spot has the intensity of the whole sphere's share, there as here.
+ * KHR_lights_punctual counts in candela and lux. 683 lm are taken as one watt, the rate of
+ * Blender's exporter ("standard" lighting mode, its default): a light of P watts leaves Blender as
+ * 683 P / (4 pi) cd and becomes P / (4 pi) W/sr here, P watts in all; a sun's W/m^2 come back as
+ * they were. A spot has the intensity of the whole sphere's share, there as here.
  *
- * COLLADA, FBX and 3DS state no unit. Their numbers are taken for what Blender's exporters write: P watts of a
- * point or a spot, P / (4 pi) W/sr, and W/m^2 of a sun. What fades otherwise than by the square is not asked for. FBX
- * counts lengths in UnitScaleFactor centimetres, but not its lights.
+ * COLLADA, FBX and 3DS state no unit. Their numbers are taken for what Blender's exporters write: P
+ * watts of a point or a spot, P / (4 pi) W/sr, and W/m^2 of a sun. What fades otherwise than by the
+ * square is not asked for. FBX counts lengths in UnitScaleFactor centimetres, but not its lights.
  *
- * An intensity I lights a surface by I / d^2: where the request stretches all lengths by s, I grows by
- * s^2, and the picture stays the same. Scales of nodes do not count, as glTF says. A sun's irradiance
- * stays.
+ * An intensity I lights a surface by I / d^2: where the request stretches all lengths by s, I grows
+ * by s^2, and the picture stays the same. Scales of nodes do not count, as glTF says. A sun's
+ * irradiance stays.
  */
 #include "import/steps.h"
 
@@ -111,7 +111,8 @@ static ps_result add(struct mesh_job *job, const struct affine *map,
     return PS_OK;
 }
 
-/* --- glTF ----------------------------------------------------------------------------------------- */
+/* --- glTF
+ * ----------------------------------------------------------------------------------------- */
 
 static ps_rgb read_amount(const struct json *light)
 {
@@ -181,7 +182,8 @@ static ps_result read_gltf_lights(struct mesh_job *job)
     return result;
 }
 
-/* --- other formats -------------------------------------------------------------------------------- */
+/* --- other formats
+ * -------------------------------------------------------------------------------- */
 
 static bool kind_of(enum aiLightSourceType type, enum light_kind *kind)
 {
@@ -228,8 +230,8 @@ static ps_rgb assimp_amount(const struct mesh_job *job, const struct aiLight *li
     return fades ? ps_rgb_scale(stated, (float)(unit * unit / (4 * PI))) : stated;
 }
 
-/* COLLADA's spots end at falloff_angle. Blender writes its blend, 0 to 1, as falloff_exponent, of which assimp makes a
- * rim of at least acos 0.1 around the cone. */
+/* COLLADA's spots end at falloff_angle. Blender writes its blend, 0 to 1, as falloff_exponent, of
+ * which assimp makes a rim of at least acos 0.1 around the cone. */
 static double outer_cone(const struct mesh_job *job, const struct aiLight *light)
 {
     double inner = light->mAngleInnerCone, outer = light->mAngleOuterCone;

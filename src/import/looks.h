@@ -1,7 +1,7 @@
 /* looks.h: what an import asked of the disk, and what the disk said.
  *
- * An import makes the same of a file as long as all the answers are the same. Digests are XXH3 (Collet; libxxhash), 64 bits:
- * fast beside reading a mesh, and not against forgery.
+ * An import makes the same of a file as long as all the answers are the same. Digests are XXH3
+ * (Collet; libxxhash), 64 bits: fast beside reading a mesh, and not against forgery.
  */
 #ifndef IMPORT_LOOKS_H
 #define IMPORT_LOOKS_H
@@ -38,10 +38,12 @@ void mesh_looks_release(struct mesh_looks *looks);
 
 uint64_t mesh_digest(const void *bytes, size_t size);
 
-/* The digest of what follows in an open file, and how much it is. False: out of memory, or it cannot be read. */
+/* The digest of what follows in an open file, and how much it is. False: out of memory, or it
+ * cannot be read. */
 bool mesh_digest_rest(int file, uint64_t *size, uint64_t *digest);
 
-/* The digest of a whole file in the folder (input_file.h), which is read for it alone; false: it cannot be read. */
+/* The digest of a whole file in the folder (input_file.h), which is read for it alone; false: it
+ * cannot be read. */
 bool mesh_file_digest(const char *path, const char *folder, uint64_t *digest);
 
 /* Whether the disk says the same of all of them now. The digest of one file is known. */

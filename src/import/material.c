@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- reading -------------------------------------------------------------------------------------- */
+/* --- reading
+ * -------------------------------------------------------------------------------------- */
 
 double mesh_material_number(const struct aiMaterial *source, const char *key, double fallback)
 {
@@ -33,7 +34,8 @@ ps_rgb mesh_material_color(const struct aiMaterial *source, const char *key, ps_
     return (ps_rgb){sound(color.r), sound(color.g), sound(color.b)};
 }
 
-/* --- writing -------------------------------------------------------------------------------------- */
+/* --- writing
+ * -------------------------------------------------------------------------------------- */
 
 struct material_description mesh_material_white(struct origin origin)
 {
@@ -122,7 +124,8 @@ ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share sh
     return result;
 }
 
-/* --- what is left out ----------------------------------------------------------------------------- */
+/* --- what is left out
+ * ----------------------------------------------------------------------------- */
 
 void mesh_material_omit(struct mesh_job *job, const char *what, const char *name)
 {
@@ -163,7 +166,8 @@ void mesh_note_omissions(struct mesh_job *job)
     }
 }
 
-/* --- all of them --------------------------------------------------------------------------------- */
+/* --- all of them
+ * --------------------------------------------------------------------------------- */
 
 /* A nameless one gets a number for its name, and false. */
 static bool read_name(const struct mesh_job *job, unsigned index, struct aiString *name)

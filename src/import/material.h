@@ -20,8 +20,8 @@ struct material_description mesh_material_white(struct origin origin);
 ps_result mesh_material_add(struct mesh_job *job, const struct material_description *material,
                             const char *name, const char *part, size_t *index);
 
-/* Adds the two, and a mix of them that has the surface (emission, opacity, bump, normal map) of the first. Where
- * `varying` is not NULL it is the share of the first, and the weights do not count. */
+/* Adds the two, and a mix of them that has the surface (emission, opacity, bump, normal map) of the
+ * first. Where `varying` is not NULL it is the share of the first, and the weights do not count. */
 struct mesh_share {
     const struct material_description *material;
     double weight;
@@ -31,8 +31,8 @@ ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share sh
                                 const struct pigment_description *varying, const char *name,
                                 size_t *index);
 
-/* Counts a material that has something psplat has not: each such thing is noted once (steps.h). `what` is a
- * literal. */
+/* Counts a material that has something psplat has not: each such thing is noted once (steps.h).
+ * `what` is a literal. */
 void mesh_material_omit(struct mesh_job *job, const char *what, const char *name);
 
 /* At most 1; the rest counts as left out. */
@@ -47,7 +47,8 @@ ps_result mesh_material_read_gltf(struct mesh_job *job, const struct aiMaterial 
 
 /* --- material_mesh.c: what the meshes of a material bring ------------------------------ */
 
-/* The material takes the colours of its meshes' vertices; for NO_INDEX one that is white without them is made. */
+/* The material takes the colours of its meshes' vertices; for NO_INDEX one that is white without
+ * them is made. */
 ps_result mesh_material_paint(struct mesh_job *job, size_t *index);
 
 /* Whether some texture of the material is laid by the second set of coordinates. */

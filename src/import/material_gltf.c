@@ -1,11 +1,12 @@
 /* material_gltf.c: metalness and roughness, as glTF 2 (and newer MTL, FBX) has them.
  *
- * A metal of the base colour from metalness 1 on, the base colour under a coat that reflects 4 % (or
- * what KHR_materials_ior and KHR_materials_specular say) at 0, and between them a mix by weight, which
- * a texture may vary; transmission of a half and more makes glass. roughness is squared into GGX's
- * alpha there as here. Emission is radiance as it stands, times KHR_materials_emissive_strength: Blender
- * writes its own strengths there, not candelas. KHR_materials_unlit: a black surface that emits the
- * base colour. KHR_materials_pbrSpecularGlossiness: material_glossiness.c.
+ * A metal of the base colour from metalness 1 on, the base colour under a coat that reflects 4 %
+ * (or what KHR_materials_ior and KHR_materials_specular say) at 0, and between them a mix by
+ * weight, which a texture may vary; transmission of a half and more makes glass. roughness is
+ * squared into GGX's alpha there as here. Emission is radiance as it stands, times
+ * KHR_materials_emissive_strength: Blender writes its own strengths there, not candelas.
+ * KHR_materials_unlit: a black surface that emits the base colour.
+ * KHR_materials_pbrSpecularGlossiness: material_glossiness.c.
  */
 #include "import/material_gltf.h"
 
@@ -80,7 +81,8 @@ static struct pbr read_pbr(struct mesh_job *job, const struct aiMaterial *source
     };
 }
 
-/* --- surface -------------------------------------------------------------------------------------- */
+/* --- surface
+ * -------------------------------------------------------------------------------------- */
 
 static bool has_alpha_mode(const struct json *extras, const char *mode)
 {
@@ -159,7 +161,8 @@ static ps_result read_base(struct mesh_job *job, const struct aiMaterial *source
                            : result;
 }
 
-/* --- kinds ---------------------------------------------------------------------------------------- */
+/* --- kinds
+ * ---------------------------------------------------------------------------------------- */
 
 /* KHR_materials_volume: what is left of white light after a distance, in the file's units. */
 static ps_rgb read_absorption(const struct mesh_job *job, const struct aiMaterial *source)
@@ -251,7 +254,8 @@ static ps_result add_kind(struct mesh_job *job, const struct aiMaterial *source,
     return result == PS_OK ? add_opaque(job, source, extras, pbr, material, name, index) : result;
 }
 
-/* --- what is left out ----------------------------------------------------------------------------- */
+/* --- what is left out
+ * ----------------------------------------------------------------------------- */
 
 /* By the factors by which they count: without them, or with 0, there is nothing to leave out. */
 static const struct {

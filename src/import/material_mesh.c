@@ -1,7 +1,8 @@
-/* material_mesh.c: vertex colours and second texture coordinates, which meshes bring to their materials.
+/* material_mesh.c: vertex colours and second texture coordinates, which meshes bring to their
+ * materials.
  *
- * Vertex colours multiply the base colour, and where the material says that its alpha counts their alpha the opacity. A
- * mesh that has colours and no material of the file gets one, diffuse.
+ * Vertex colours multiply the base colour, and where the material says that its alpha counts their
+ * alpha the opacity. A mesh that has colours and no material of the file gets one, diffuse.
  */
 #include "import/material.h"
 

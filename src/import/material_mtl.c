@@ -3,22 +3,24 @@
  * Kd diffuse, Ks specular, Ns the exponent of Phong's lobe, Ni index of refraction, d opacity, Tf
  * what passes, Ke emission, illum which of them count:
  *
- *     4, 6, 7, 9                       glass of index Ni that lets Tf pass from one side to the other
+ *     4, 6, 7, 9                       glass of index Ni that lets Tf pass from one side to the
+ *                                      other
  *     3, 5, 8                          a mirror of reflectance Ks, over Kd where that is not black
  *     2 (and other formats' specular)  Kd under a coat that reflects Ks at normal incidence
  *     0, 1                             Kd
  *
  * The coat's roughness is that of the GGX lobe as wide as Phong's: alpha = sqrt(2 / (Ns + 2))
  * (Walter et al. 2007, "Microfacet models for refraction", for Beckmann; near enough for GGX), and
- * roughness = sqrt(alpha). Colours are linear, or codes of sRGB where the scene says so: MTL does not say. Ke is
- * radiance, and linear in any case.
+ * roughness = sqrt(alpha). Colours are linear, or codes of sRGB where the scene says so: MTL does
+ * not say. Ke is radiance, and linear in any case.
  */
 #include "image/tonemap.h"
 #include "import/material.h"
 
 #include <string.h>
 
-/* Below this, beside a mirror, Kd is the "almost black" that exporters like, and counts as black. */
+/* Below this, beside a mirror, Kd is the "almost black" that exporters like, and counts as
+ * black. */
 #define ALMOST_BLACK 0.02f
 
 struct mtl {
@@ -27,7 +29,8 @@ struct mtl {
     int illumination;
 };
 
-/* --- reading -------------------------------------------------------------------------------------- */
+/* --- reading
+ * -------------------------------------------------------------------------------------- */
 
 /* Formats other than OBJ have no illum: gloss counts where there is some. */
 static int read_illumination(const struct mesh_job *job, const struct aiMaterial *source,
@@ -93,7 +96,8 @@ static double roughness_of(double exponent)
     return sqrt(sqrt(2 / (exponent + 2)));
 }
 
-/* --- textures ------------------------------------------------------------------------------------- */
+/* --- textures
+ * ------------------------------------------------------------------------------------- */
 
 /* A picture beside a black factor is meant to be seen. */
 static ps_result add_picture(struct mesh_job *job, const struct aiMaterial *source,
@@ -167,7 +171,8 @@ static ps_result read_surface(struct mesh_job *job, const struct aiMaterial *sou
     return result;
 }
 
-/* --- kinds ---------------------------------------------------------------------------------------- */
+/* --- kinds
+ * ---------------------------------------------------------------------------------------- */
 
 /* A ray passes two surfaces from one side to the other. */
 static ps_result add_glass(struct mesh_job *job, const struct mtl *mtl,

@@ -1,8 +1,8 @@
 /* meshopt.c: views that EXT_meshopt_compression packed, through meshoptimizer.
  *
- * Attributes take at least two bits for 16 bytes, triangles a byte for three indices of up to four bytes each,
- * sequences of indices a byte for each: so a view is at most 64 times as large as its packed form, and one that claims
- * more is refused before memory is taken.
+ * Attributes take at least two bits for 16 bytes, triangles a byte for three indices of up to four
+ * bytes each, sequences of indices a byte for each: so a view is at most 64 times as large as its
+ * packed form, and one that claims more is refused before memory is taken.
  */
 #include "import/gltf_data.h"
 

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- parts ----------------------------------------------------------------------------------------- */
+/* --- parts
+ * ----------------------------------------------------------------------------------------- */
 
 static bool is_same_text(const struct text_line *a, const struct text_line *b)
 {
@@ -25,7 +26,8 @@ static int compare_words(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-/* The first statement of the same material, for each statement of a material. False: out of memory. */
+/* The first statement of the same material, for each statement of a material. False: out of
+ * memory. */
 static bool find_first_mentions(const struct obj_text *text, size_t *firsts)
 {
     const struct obj_statement **sorted = calloc(text->statement_count + 1, sizeof(void *));
@@ -151,7 +153,8 @@ static bool find_parts(struct obj *obj)
     return good;
 }
 
-/* --- outline --------------------------------------------------------------------------------------- */
+/* --- outline
+ * --------------------------------------------------------------------------------------- */
 
 static void write_line(struct obj *obj, const char *keyword, const struct text_line *words)
 {
@@ -190,7 +193,8 @@ static bool write_outline(struct obj *obj)
     return true;
 }
 
-/* --- the file -------------------------------------------------------------------------------------- */
+/* --- the file
+ * -------------------------------------------------------------------------------------- */
 
 static ps_result read_text(struct obj *obj, struct mesh_file *file, struct error *error)
 {

@@ -1,4 +1,5 @@
-/* obj.h: an OBJ file: its geometry, read here, and an outline of it for assimp, which reads its libraries.
+/* obj.h: an OBJ file: its geometry, read here, and an outline of it for assimp, which reads its
+ * libraries.
  *
  * A part is a run of triangles of one section (`o`, `g`) and one material (`usemtl`).
  */
@@ -26,15 +27,16 @@ struct obj {
     size_t run_count;
     struct text_line *materials; /* each name once, in the order of their first parts */
     size_t material_count;
-    /* An OBJ text by the file's name: the libraries, a triangle without a material, and one for each material. Owns its bytes
-     * alone. */
+    /* An OBJ text by the file's name: the libraries, a triangle without a material, and one for
+     * each material. Owns its bytes alone. */
     struct mesh_file outline;
 };
 
 /* Cuts the polygons of the text anew, in place (obj_polygon.c). False: out of memory. */
 bool obj_cut_polygons(const struct obj_text *text);
 
-/* PS_ERROR_INVALID (a bad line, no triangle) or PS_ERROR_MEMORY. obj refers to the file; released in any case. */
+/* PS_ERROR_INVALID (a bad line, no triangle) or PS_ERROR_MEMORY. obj refers to the file; released
+ * in any case. */
 ps_result obj_open(struct obj *obj, struct mesh_file *file, struct error *error);
 void obj_release(struct obj *obj);
 

@@ -1,4 +1,5 @@
-/* obj_line.c: one line of an OBJ text (Wavefront, "Object files", Advanced Visualizer appendix B1). */
+/* obj_line.c: one line of an OBJ text (Wavefront, "Object files", Advanced Visualizer appendix
+ * B1). */
 #include "import/obj_line.h"
 
 #include "base/decimal.h"
@@ -57,7 +58,8 @@ static void complain(struct obj_piece *piece, const char *at, const char *messag
     snprintf(piece->wrong, sizeof piece->wrong, "%s", message);
 }
 
-/* Numbers of a line, at most `most`; how many there are. "nan", "inf" and "1.#IND" are none that can be used. */
+/* Numbers of a line, at most `most`; how many there are. "nan", "inf" and "1.#IND" are none that
+ * can be used. */
 static size_t read_numbers(struct obj_piece *piece, const struct text_line *words, double *numbers,
                            size_t most)
 {
@@ -77,7 +79,8 @@ static size_t read_numbers(struct obj_piece *piece, const struct text_line *word
     return count;
 }
 
-/* --- lines ------------------------------------------------------------------------------------------ */
+/* --- lines
+ * ------------------------------------------------------------------------------------------ */
 
 void obj_count_line(struct obj_counts *counts, const struct text_line *line)
 {

@@ -23,7 +23,8 @@ size_t obj_count_words(const struct text_line *words);
 /* Adds what the line has. */
 void obj_count_line(struct obj_counts *counts, const struct text_line *line);
 
-/* Puts it into the text's arrays, behind what there is `now`, which grows; what is wrong into the piece. */
+/* Puts it into the text's arrays, behind what there is `now`, which grows; what is wrong into the
+ * piece. */
 void obj_read_line(struct obj_text *text, struct obj_piece *piece, const struct text_line *line,
                    struct obj_counts *now);
 

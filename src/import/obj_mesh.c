@@ -1,7 +1,8 @@
 /* obj_mesh.c: the parts of an OBJ file as meshes.
  *
- * Corners that agree in all they have are one vertex. Normals are the file's, or those of its smoothing groups: there a
- * corner has the sum over the faces that share its vertex and group, weighted by area; group 0 is flat.
+ * Corners that agree in all they have are one vertex. Normals are the file's, or those of its
+ * smoothing groups: there a corner has the sum over the faces that share its vertex and group,
+ * weighted by area; group 0 is flat.
  */
 #include "import/geometry.h"
 
@@ -31,7 +32,8 @@ struct obj_filling {
     uint32_t *first_sums; /* for each place; NULL: there are no smoothing groups */
 };
 
-/* --- smoothing groups ------------------------------------------------------------------------------ */
+/* --- smoothing groups
+ * ------------------------------------------------------------------------------ */
 
 /* The group of a triangle; `run` is that of an earlier one, and moves on. */
 static uint32_t group_of(const struct obj *obj, size_t triangle, size_t *run)
@@ -121,7 +123,8 @@ static bool has_groups(const struct obj *obj)
     return false;
 }
 
-/* --- what a part has ------------------------------------------------------------------------------- */
+/* --- what a part has
+ * ------------------------------------------------------------------------------- */
 
 static bool some_corner_has(const struct obj_part *part, const uint32_t (*indices)[3])
 {
@@ -155,7 +158,8 @@ bool obj_has_colors(const struct mesh_job *job, const struct obj_part *part)
     return false;
 }
 
-/* --- vertices -------------------------------------------------------------------------------------- */
+/* --- vertices
+ * -------------------------------------------------------------------------------------- */
 
 enum normals { NORMALS_NONE, NORMALS_OF_FILE, NORMALS_OF_GROUPS };
 
@@ -165,7 +169,8 @@ static bool is_usable(ps_vec3 normal)
     return isfinite(square) && square > 0;
 }
 
-/* A corner without a normal, which will get that of its triangle, shares its vertex with no other. */
+/* A corner without a normal, which will get that of its triangle, shares its vertex with no
+ * other. */
 static bool is_shared(const struct obj_filling *filling, const struct joint *corner,
                       enum normals normals)
 {
@@ -279,7 +284,8 @@ static void fill_vertex(const struct obj_filling *filling, size_t index, enum no
         mesh_fill_color(filling->job, text->colors[joint->place], mesh->colors[index]);
 }
 
-/* --- filling --------------------------------------------------------------------------------------- */
+/* --- filling
+ * --------------------------------------------------------------------------------------- */
 
 static ps_result fill(struct obj_filling *filling, const struct obj_part *part, bool colors,
                       struct mesh_description *mesh, size_t *dropped)

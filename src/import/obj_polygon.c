@@ -1,4 +1,5 @@
-/* obj_polygon.c: polygons of an OBJ file, which are read as fans, so that no triangle lies outside of them. */
+/* obj_polygon.c: polygons of an OBJ file, which are read as fans, so that no triangle lies outside
+ * of them. */
 #include "import/obj.h"
 
 #include "scene/polygon.h"
@@ -31,7 +32,8 @@ static struct vector point_of(const struct obj_text *text, const uint32_t corner
     return (struct vector){p.x, p.y, p.z};
 }
 
-/* Along the normal, as long as twice the area (Sutherland, Sproull and Schumacker 1974, after M. Newell). */
+/* Along the normal, as long as twice the area (Sutherland, Sproull and Schumacker 1974, after M.
+ * Newell). */
 static struct vector polygon_normal(const struct obj_text *text, const uint32_t (*corners)[3],
                                     size_t count)
 {
@@ -77,8 +79,8 @@ static void store_triangle(const struct obj_text *text, size_t triangle, const s
             kinds[kind][triangle][k] = knife->corners[cut[k]][kind];
 }
 
-/* A convex quadrangle stays the fan that it is, as other programs cut it. One that crosses itself may give fewer
- * triangles: the others have no area. */
+/* A convex quadrangle stays the fan that it is, as other programs cut it. One that crosses itself
+ * may give fewer triangles: the others have no area. */
 static void cut_polygon(const struct obj_text *text, const struct obj_polygon *polygon,
                         const struct knife *knife)
 {

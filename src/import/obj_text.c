@@ -1,7 +1,8 @@
-/* obj_text.c: two walks over the pieces of an OBJ text (Wavefront, "Object files", Advanced Visualizer appendix B1).
+/* obj_text.c: two walks over the pieces of an OBJ text (Wavefront, "Object files", Advanced
+ * Visualizer appendix B1).
  *
- * Not by assimp: it keeps some 250 bytes a triangle and a vertex for each corner, reads 40 MB a second by one thread, and
- * leaves out smoothing groups.
+ * Not by assimp: it keeps some 250 bytes a triangle and a vertex for each corner, reads 40 MB a
+ * second by one thread, and leaves out smoothing groups.
  */
 #include "import/obj_line.h"
 
@@ -17,7 +18,8 @@ struct reading {
     size_t piece_count;
 };
 
-/* --- walks ------------------------------------------------------------------------------------------ */
+/* --- walks
+ * ------------------------------------------------------------------------------------------ */
 
 static void count_piece(void *user, uint64_t index, uint32_t worker)
 {
@@ -51,9 +53,11 @@ static void read_piece(void *user, uint64_t index, uint32_t worker)
         obj_read_line(reading->text, piece, &line, &now);
 }
 
-/* --- both ------------------------------------------------------------------------------------------ */
+/* --- both
+ * ------------------------------------------------------------------------------------------ */
 
-/* A byte order mark becomes blanks, and so do ends of lines behind a backslash, which still count as lines. */
+/* A byte order mark becomes blanks, and so do ends of lines behind a backslash, which still count
+ * as lines. */
 static void blank_what_is_no_text(struct mesh_file *file)
 {
     char *at = file->bytes, *end = file->bytes + file->length;

@@ -1,7 +1,9 @@
-/* obj_text.h: the geometry of an OBJ text as it stands there: places, corners of triangles, and statements between them.
+/* obj_text.h: the geometry of an OBJ text as it stands there: places, corners of triangles, and
+ * statements between them.
  *
- * The text is cut into pieces at ends of lines. One walk counts what each piece has, so that the second knows where in
- * the arrays it belongs; both walks go over the pieces in parallel, and the result does not depend on the threads.
+ * The text is cut into pieces at ends of lines. One walk counts what each piece has, so that the
+ * second knows where in the arrays it belongs; both walks go over the pieces in parallel, and the
+ * result does not depend on the threads.
  */
 #ifndef IMPORT_OBJ_TEXT_H
 #define IMPORT_OBJ_TEXT_H
@@ -46,8 +48,9 @@ struct obj_text {
 
 struct workers;
 
-/* Lines that end in a backslash are joined in the file's bytes. Words that are not known are passed over, and so are
- * lines and points. PS_ERROR_INVALID with the number of the line, or PS_ERROR_MEMORY; released in any case. */
+/* Lines that end in a backslash are joined in the file's bytes. Words that are not known are passed
+ * over, and so are lines and points. PS_ERROR_INVALID with the number of the line, or
+ * PS_ERROR_MEMORY; released in any case. */
 ps_result obj_text_read(struct mesh_file *file, struct workers *workers, struct obj_text *text,
                         struct error *error);
 void obj_text_release(struct obj_text *text);

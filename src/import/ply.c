@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- outline --------------------------------------------------------------------------------------- */
+/* --- outline
+ * --------------------------------------------------------------------------------------- */
 
 static void copy_comments(const struct mesh_file *file, size_t length, FILE *stream)
 {
@@ -48,7 +49,8 @@ static ps_result make_outline(struct ply *ply, const struct mesh_file *file,
     return good ? PS_OK : error_memory(error, header->data, "a mesh file");
 }
 
-/* --- the file -------------------------------------------------------------------------------------- */
+/* --- the file
+ * -------------------------------------------------------------------------------------- */
 
 static bool cut(const struct ply *ply, struct obj_polygon *polygons, size_t count)
 {

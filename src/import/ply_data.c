@@ -1,5 +1,6 @@
-/* ply_data.c: vertices have a size each, so that they are read in parallel. Faces are lists: one walk finds where every so
- * many of them start, and which triangles they are; then they are read in parallel as well.
+/* ply_data.c: vertices have a size each, so that they are read in parallel. Faces are lists: one
+ * walk finds where every so many of them start, and which triangles they are; then they are read in
+ * parallel as well.
  */
 #include "import/ply_data.h"
 
@@ -31,7 +32,8 @@ static size_t count_pieces(uint64_t elements)
     return (size_t)((elements + PIECE - 1) / PIECE);
 }
 
-/* --- vertices -------------------------------------------------------------------------------------- */
+/* --- vertices
+ * -------------------------------------------------------------------------------------- */
 
 /* A property, or nothing where it is not there. */
 struct column {
@@ -99,9 +101,11 @@ static void read_vertices(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-/* --- faces ----------------------------------------------------------------------------------------- */
+/* --- faces
+ * ----------------------------------------------------------------------------------------- */
 
-/* The list of a face, and how long it is; NULL where the data end before it does. `*at` moves behind the face. */
+/* The list of a face, and how long it is; NULL where the data end before it does. `*at` moves
+ * behind the face. */
 static const char *next_face(const struct ply_header *header, const char **at, const char *end,
                              const struct ply_property **list, size_t *corners)
 {
@@ -199,7 +203,8 @@ static void read_faces(void *user, uint64_t number, uint32_t worker)
     }
 }
 
-/* --- both ------------------------------------------------------------------------------------------ */
+/* --- both
+ * ------------------------------------------------------------------------------------------ */
 
 static ps_result out_of_memory(const struct reading *reading, struct error *error)
 {

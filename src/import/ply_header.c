@@ -45,7 +45,8 @@ static const struct {
     {"vertex_indices", PLY_INDICES},
 };
 
-/* --- numbers --------------------------------------------------------------------------------------- */
+/* --- numbers
+ * --------------------------------------------------------------------------------------- */
 
 size_t ply_type_size(enum ply_type type)
 {
@@ -112,7 +113,8 @@ double ply_number(const char *at, enum ply_type type, bool big_endian)
     return 0;
 }
 
-/* --- lines ----------------------------------------------------------------------------------------- */
+/* --- lines
+ * ----------------------------------------------------------------------------------------- */
 
 /* The first word of a line, and what follows. */
 static struct text_line take_word(struct text_line *line)
@@ -183,7 +185,8 @@ static struct ply_element *read_element(struct text_line line, struct ply_header
     return end == line.end && element->count < UINT32_MAX ? element : NULL;
 }
 
-/* --- which files ----------------------------------------------------------------------------------- */
+/* --- which files
+ * ----------------------------------------------------------------------------------- */
 
 const struct ply_property *ply_property_of(const struct ply_element *element, enum ply_role role)
 {

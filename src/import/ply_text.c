@@ -1,6 +1,7 @@
-/* ply_text.c: pieces of the text, three walks over each, in parallel: how many elements they hold; how many bytes those take,
- * which for a face depends on its first numbers; and then the numbers, into place. So what is read does not depend on the
- * threads, and only the third walk reads all numbers.
+/* ply_text.c: pieces of the text, three walks over each, in parallel: how many elements they hold;
+ * how many bytes those take, which for a face depends on its first numbers; and then the numbers,
+ * into place. So what is read does not depend on the threads, and only the third walk reads all
+ * numbers.
  */
 #include "import/ply_text.h"
 
@@ -27,7 +28,8 @@ struct packing {
     unsigned char *packed;
 };
 
-/* --- lines ----------------------------------------------------------------------------------------- */
+/* --- lines
+ * ----------------------------------------------------------------------------------------- */
 
 /* Where the first line begins that begins in a piece. */
 static const char *start_of(const struct packing *packing, size_t index)
@@ -42,7 +44,8 @@ static const char *start_of(const struct packing *packing, size_t index)
     return stop ? stop + 1 : packing->text + packing->length;
 }
 
-/* The elements of a piece, which are the lines that are not empty; `number` is that of the first one. */
+/* The elements of a piece, which are the lines that are not empty; `number` is that of the first
+ * one. */
 struct walk {
     const char *at, *end;
     uint64_t line; /* in the piece, from 1 */
@@ -66,7 +69,8 @@ static bool next_element(struct walk *walk, struct text_line *line)
     return false;
 }
 
-/* --- numbers --------------------------------------------------------------------------------------- */
+/* --- numbers
+ * --------------------------------------------------------------------------------------- */
 
 static bool take_number(struct text_line *line, double *number)
 {
@@ -118,7 +122,8 @@ static unsigned char *store(unsigned char *to, enum ply_type type, double number
     return to;
 }
 
-/* --- elements -------------------------------------------------------------------------------------- */
+/* --- elements
+ * -------------------------------------------------------------------------------------- */
 
 static const struct ply_element *element_of(const struct ply_header *header, uint64_t number)
 {
@@ -180,7 +185,8 @@ static unsigned char *pack(const struct ply_element *element, struct text_line l
     return to;
 }
 
-/* --- walks ----------------------------------------------------------------------------------------- */
+/* --- walks
+ * ----------------------------------------------------------------------------------------- */
 
 static void count_piece(void *user, uint64_t index, uint32_t worker)
 {

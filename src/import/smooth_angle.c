@@ -1,10 +1,11 @@
 /* smooth_angle.c: normals for a mesh without any, by the angle at its edges.
  *
- * Two triangles that share an edge are one smooth surface there if their normals differ by at most an angle. Around a
- * vertex, the corners that such edges join get one normal: the mean of their triangles' normals, weighted by the angles
- * of the corners (Thuermer and Wuethrich 1998), so that it does not depend on how a face was cut into triangles. Vertices
- * belong together by their places, since files repeat them for each face. An edge of one triangle, of more than two, or
- * of two that face different sides, is sharp.
+ * Two triangles that share an edge are one smooth surface there if their normals differ by at most
+ * an angle. Around a vertex, the corners that such edges join get one normal: the mean of their
+ * triangles' normals, weighted by the angles of the corners (Thuermer and Wuethrich 1998), so that
+ * it does not depend on how a face was cut into triangles. Vertices belong together by their
+ * places, since files repeat them for each face. An edge of one triangle, of more than two, or of
+ * two that face different sides, is sharp.
  *
  * Not by assimp: it weighs all triangles alike, and looks at all pairs around a place.
  */
@@ -57,7 +58,8 @@ static ps_vec3 point_of(const struct smoothing *s, uint32_t corner)
     return s->mesh->vertices[vertex_of(s, corner)];
 }
 
-/* --- what belongs together ------------------------------------------------------------------------ */
+/* --- what belongs together
+ * ------------------------------------------------------------------------ */
 
 static int compare_places(const void *a, const void *b)
 {
@@ -148,7 +150,8 @@ static bool join_smooth_edges(struct smoothing *s, float least)
     return true;
 }
 
-/* --- normals -------------------------------------------------------------------------------------- */
+/* --- normals
+ * -------------------------------------------------------------------------------------- */
 
 static void find_triangle_normals(struct smoothing *s)
 {
@@ -186,7 +189,8 @@ static int compare_splits(const void *a, const void *b)
     return p->corner < q->corner ? -1 : p->corner > q->corner;
 }
 
-/* One for each vertex that is to be, in the order of the old ones; triangles get their numbers. NULL: out of memory. */
+/* One for each vertex that is to be, in the order of the old ones; triangles get their numbers.
+ * NULL: out of memory. */
 static struct split *split_vertices(struct smoothing *s, size_t *vertex_count)
 {
     struct split *splits = malloc(s->corner_count * sizeof *splits);

@@ -59,7 +59,8 @@ void mesh_decode_percent(char *text)
     *to = '\0';
 }
 
-/* --- MTL -------------------------------------------------------------------------------------------- */
+/* --- MTL
+ * -------------------------------------------------------------------------------------------- */
 
 /* assimp takes any line whose first letters are "ne", in either case of the first. */
 static bool begins_material(const struct text_line *line)
@@ -91,7 +92,8 @@ bool mtl_has_material(const struct mesh_file *file, const char *name)
     return false;
 }
 
-/* --- PLY -------------------------------------------------------------------------------------------- */
+/* --- PLY
+ * -------------------------------------------------------------------------------------------- */
 
 /* Of a name that assimp knows: it does not skip the data of others. */
 #define GUARD "element edge 1\nproperty uchar guard\n"

@@ -23,8 +23,8 @@ void mtl_blank_preamble(struct mesh_file *file);
 /* Whether an MTL text defines the material. */
 bool mtl_has_material(const struct mesh_file *file, const char *name);
 
-/* assimp takes data of a binary PLY file that begin like the end of a line for a part of the header: an element of one
- * byte comes before such data. PS_ERROR_MEMORY. */
+/* assimp takes data of a binary PLY file that begin like the end of a line for a part of the
+ * header: an element of one byte comes before such data. PS_ERROR_MEMORY. */
 ps_result ply_guard_data(struct mesh_file *file, struct error *error);
 
 #endif

@@ -1,8 +1,8 @@
 /* texture.c: pictures that materials name, beside the mesh or inside of it.
  *
  * A path is tried as it stands, from the mesh file's folder; then with %20 and the like decoded, as
- * glTF's are; then by its last part alone, since many exporters write paths of their own machine; then both without
- * regard to letter case, which counts for nothing where many exporters run.
+ * glTF's are; then by its last part alone, since many exporters write paths of their own machine;
+ * then both without regard to letter case, which counts for nothing where many exporters run.
  */
 #include "import/material.h"
 
@@ -109,7 +109,8 @@ static const struct aiTexture *find_embedded(const struct aiScene *scene, const 
     return NULL;
 }
 
-/* --- the texture -------------------------------------------------------------------------------- */
+/* --- the texture
+ * -------------------------------------------------------------------------------- */
 
 static int read_integer(const struct aiMaterial *source, const char *key, enum aiTextureType type,
                         int fallback)
@@ -302,7 +303,8 @@ static ps_result find_texture(struct mesh_job *job, const struct aiMaterial *sou
     return add_texture(job, &texture, index);
 }
 
-/* --- the pigment -------------------------------------------------------------------------------- */
+/* --- the pigment
+ * -------------------------------------------------------------------------------- */
 
 ps_result mesh_pigment_texture(struct mesh_job *job, const struct aiMaterial *source,
                                struct mesh_texture_use use, struct pigment_description *pigment)

@@ -1,13 +1,14 @@
 /* texture_map.c: how a picture lies on its surface.
  *
- * glTF's own words are read from its JSON (textureInfo.texCoord and KHR_texture_transform): assimp turns pictures the
- * wrong way. With v downwards, as glTF has it, and angle a, the picture is looked up at
+ * glTF's own words are read from its JSON (textureInfo.texCoord and KHR_texture_transform): assimp
+ * turns pictures the wrong way. With v downwards, as glTF has it, and angle a, the picture is
+ * looked up at
  *
  *     u' = offset_u + scale_u cos(a) u + scale_v sin(a) v
  *     v' = offset_v - scale_u sin(a) u + scale_v cos(a) v
  *
- * which is what Blender writes and reads. (The GLSL in the extension's text turns the other way.) For other formats
- * assimp's transform counts: scale, turn about the middle, move, with v upwards.
+ * which is what Blender writes and reads. (The GLSL in the extension's text turns the other way.)
+ * For other formats assimp's transform counts: scale, turn about the middle, move, with v upwards.
  */
 #include "import/material.h"
 
@@ -22,7 +23,8 @@ static void choose_set(struct mesh_job *job, size_t set, struct pigment_descript
     job->third_uv |= set >= SETS;
 }
 
-/* --- glTF ------------------------------------------------------------------------------------------ */
+/* --- glTF
+ * ------------------------------------------------------------------------------------------ */
 
 static double number_at(const struct json *array, size_t index, double fallback)
 {
@@ -55,7 +57,8 @@ static void map_by_gltf(struct mesh_job *job, const struct json *info,
     pigment->offset_v = 1 - number_at(offset, 1, 0) - v * cos(angle);
 }
 
-/* --- others ---------------------------------------------------------------------------------------- */
+/* --- others
+ * ---------------------------------------------------------------------------------------- */
 
 static size_t read_set(const struct aiMaterial *source, enum aiTextureType type)
 {

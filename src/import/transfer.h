@@ -1,7 +1,7 @@
 /* transfer.h: a mesh file's content by way of a file in memory, from the child that read it.
  *
- * The way of scene/transfer.h. Both ends are one program, and pointers to what the caller had before the fork (names in
- * origins) hold on both sides.
+ * The way of scene/transfer.h. Both ends are one program, and pointers to what the caller had
+ * before the fork (names in origins) hold on both sides.
  */
 #ifndef IMPORT_TRANSFER_H
 #define IMPORT_TRANSFER_H
@@ -24,14 +24,14 @@ int mesh_transfer_open(void);
 /* Writes all of it; false: not all could be written. */
 bool mesh_outcome_send(struct mesh_outcome *outcome, int file);
 
-/* Reads it from where the file stands. False where not all is there, or there is no memory for it; `outcome` then
- * holds nothing. */
+/* Reads it from where the file stands. False where not all is there, or there is no memory for it;
+ * `outcome` then holds nothing. */
 bool mesh_outcome_receive(struct mesh_outcome *outcome, int file);
 
 void mesh_outcome_release(struct mesh_outcome *outcome);
 
-/* Sets the origins of objects, materials, textures, cameras and lights, where they are another request's: of another process, or of
- * an earlier reading. */
+/* Sets the origins of objects, materials, textures, cameras and lights, where they are another
+ * request's: of another process, or of an earlier reading. */
 void mesh_fragment_set_origins(struct scene_description *fragment, struct origin origin);
 
 #endif

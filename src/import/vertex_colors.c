@@ -1,7 +1,7 @@
 /* vertex_colors.c: the colours of vertices, and which of them are not to be had.
  *
- * glTF's colours are linear. Those of OBJ, PLY and the rest are what paint and scanning programs show, sRGB, as Blender
- * reads them. Alpha counts in glTF alone.
+ * glTF's colours are linear. Those of OBJ, PLY and the rest are what paint and scanning programs
+ * show, sRGB, as Blender reads them. Alpha counts in glTF alone.
  */
 #include "import/geometry.h"
 

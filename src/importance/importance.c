@@ -34,8 +34,9 @@ static void release_sharing(struct sharing *sharing)
     free(sharing->listed);
 }
 
-/* The radius over the root mean square of the distances from the middle. Of a room that is seen all around from within,
- * 1.4 holds everything; but the light of an open place comes from farther than what is seen of it. */
+/* The radius over the root mean square of the distances from the middle. Of a room that is seen all
+ * around from within, 1.4 holds everything; but the light of an open place comes from farther than
+ * what is seen of it. */
 #define SPREADS 4.0
 
 static void bound_seen(const struct scene *scene, const struct seen_places *seen,
@@ -54,7 +55,8 @@ static void bound_seen(const struct scene *scene, const struct seen_places *seen
 /* Below, it costs little to ask all lights. */
 #define FEWEST_LIGHTS 4
 
-/* The threshold over the irradiance that the camera sees. A light that is drawn below it counts for as much. */
+/* The threshold over the irradiance that the camera sees. A light that is drawn below it counts for
+ * as much. */
 #define THRESHOLD 0.02
 
 bool importance_is_for_pixels(const struct scene *scene)

@@ -56,8 +56,8 @@ static void share_light(const struct light_list *list, size_t first, size_t end,
     share_light(list, middle, end, &back, light * part_of(&back, whole));
 }
 
-/* To five bits. Processors round differently, so that a path of the pilot or two go another way; light paths should begin
- * at the same places of the same lights all the same. */
+/* To five bits. Processors round differently, so that a path of the pilot or two go another way;
+ * light paths should begin at the same places of the same lights all the same. */
 static float rounded(double share)
 {
     int exponent;

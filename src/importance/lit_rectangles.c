@@ -29,7 +29,8 @@ static bool is_met(const struct exit_counts *counts, const struct face_bins *bin
     return false;
 }
 
-/* A window ends somewhere in a bin, and few rays may have missed that one: a bin beside one that was met is lit, too. */
+/* A window ends somewhere in a bin, and few rays may have missed that one: a bin beside one that
+ * was met is lit, too. */
 static void light_around(struct face_bins *bins, uint32_t row, uint32_t column)
 {
     uint32_t top = row > 0 ? row - 1 : 0, left = column > 0 ? column - 1 : 0;
@@ -59,7 +60,8 @@ static bool row_is_lit(const struct face_bins *bins, uint32_t row, uint32_t firs
     return true;
 }
 
-/* The widest rectangle with a corner in a lit bin, and as many rows of it as are lit; puts them out. */
+/* The widest rectangle with a corner in a lit bin, and as many rows of it as are lit; puts them
+ * out. */
 static struct portal_bins take_rectangle(struct face_bins *bins, uint32_t row, uint32_t column)
 {
     uint32_t end = column, bottom = row, size = PORTAL_BINS / bins->count;
@@ -113,7 +115,8 @@ static uint32_t side(const struct portal_bins *bins, uint32_t k)
     return bins->end[k] - bins->first[k];
 }
 
-/* Halves the largest, so that points choose among parts that are near and that they see: true where it can be. */
+/* Halves the largest, so that points choose among parts that are near and that they see: true where
+ * it can be. */
 static bool split_largest(struct rectangles *rectangles)
 {
     size_t largest = 0;

@@ -11,9 +11,10 @@ struct exit_counts {
 
 void exit_counts_add(struct exit_counts *counts, const struct portal_exit *exit);
 
-/* Makes rectangles of bins that were met, and of those beside them, the portals of a box. Bins are taken together until
- * there are a few rays in each that was met, so that windows have no holes by chance, and few enough rectangles; large
- * ones are split. `rays`: the sum of the counts. False, and no portals, where no such bins are fine enough. */
+/* Makes rectangles of bins that were met, and of those beside them, the portals of a box. Bins are
+ * taken together until there are a few rays in each that was met, so that windows have no holes by
+ * chance, and few enough rectangles; large ones are split. `rays`: the sum of the counts. False,
+ * and no portals, where no such bins are fine enough. */
 bool lit_rectangles(const struct exit_counts *counts, size_t rays, struct portals *portals);
 
 #endif

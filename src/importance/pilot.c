@@ -10,7 +10,8 @@
 #define CHUNKS 64
 #define MOST_SEGMENTS 8
 
-/* Of PS_STREAM_EMISSION, far from those of light paths: points of the picture, then two for each segment. */
+/* Of PS_STREAM_EMISSION, far from those of light paths: points of the picture, then two for each
+ * segment. */
 #define FIRST_SET 0x200000u
 
 /* Light of one light that a path found; 0: none. */
@@ -19,7 +20,8 @@ struct record {
     float value; /* the sum of red, green and blue */
 };
 
-/* What a chunk found: of lamps that paths met, and of lights that surfaces sampled; and where it met surfaces. */
+/* What a chunk found: of lamps that paths met, and of lights that surfaces sampled; and where it
+ * met surfaces. */
 struct findings {
     struct record met[MOST_SEGMENTS][CHUNK], sampled[MOST_SEGMENTS][CHUNK];
     size_t count;
@@ -111,8 +113,8 @@ static void record_emission(const struct pilot *pilot, struct pilot_paths *paths
     paths->count = met;
 }
 
-/* Records what surfaces get from a light each: how much that is near the camera, and past the first diffuse surface
- * whose it is. */
+/* Records what surfaces get from a light each: how much that is near the camera, and past the first
+ * diffuse surface whose it is. */
 static void record_direct(const struct pilot *pilot, uint64_t chunk, uint32_t segment,
                           struct pilot_paths *paths, struct findings *findings)
 {

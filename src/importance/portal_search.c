@@ -184,8 +184,9 @@ static float share_of(const struct tries *tries, float mean, float rays_of_mean)
     return (tries->open + rays_of_mean * mean) / (tries->all + rays_of_mean);
 }
 
-/* How much of each portal is seen from each part of the box, by rays that went there. What is known of all parts counts in
- * each as much as SURE_OF_CELL rays. Returns the share of those rays that got out. */
+/* How much of each portal is seen from each part of the box, by rays that went there. What is known
+ * of all parts counts in each as much as SURE_OF_CELL rays. Returns the share of those rays that
+ * got out. */
 static double learn_visibility(const struct search *search, struct portals *portals,
                                struct tries (*of_cells)[PORTALS_MOST])
 {
@@ -219,8 +220,8 @@ struct room {
     struct tries (*tries)[PORTALS_MOST];
 };
 
-/* Whether portals were found that help. First where a few rays by the cosine got out, and then finer, by rays that
- * go there. */
+/* Whether portals were found that help. First where a few rays by the cosine got out, and then
+ * finer, by rays that go there. */
 static bool find(struct search *search, const struct room *room, struct portals *portals)
 {
     trace(search);

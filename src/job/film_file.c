@@ -57,7 +57,8 @@ static void name_term(int plane, int term, char name[NAME_SIZE])
                  plane_names[plane % FILM_PLANES]);
 }
 
-/* --- writing ---------------------------------------------------------------------------------------- */
+/* --- writing
+ * ---------------------------------------------------------------------------------------- */
 
 static ps_result out_of_memory(const struct image *image, struct error *error)
 {
@@ -166,7 +167,8 @@ ps_result film_file_write(const char *path, const struct film_sum *sum, const st
     return result;
 }
 
-/* --- reading ---------------------------------------------------------------------------------------- */
+/* --- reading
+ * ---------------------------------------------------------------------------------------- */
 
 static ps_result damaged(const char *path, const char *what, struct error *error)
 {
@@ -250,8 +252,8 @@ static bool has_direct(const struct film_sum *sum, int part)
            (!hard || has_planes(sum, part + FILM_HARD_R, part + FILM_HARD_B + 1));
 }
 
-/* All that a film of the driver has: the light of the odd passes in any case, and where the reflected light is apart,
- * half of it. */
+/* All that a film of the driver has: the light of the odd passes in any case, and where the
+ * reflected light is apart, half of it. */
 static bool has_what_it_needs(const struct film_sum *sum)
 {
     static const int odd = FILM_SUM_OF_ODD;

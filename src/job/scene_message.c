@@ -43,10 +43,11 @@ static struct head head_of(bool has_scene)
     };
 }
 
-/* --- blocks ---------------------------------------------------------------------------------------- */
+/* --- blocks
+ * ---------------------------------------------------------------------------------------- */
 
-/* To ranks that are 1, 2, 4, ... above it, below the lowest bit of its own number; the tree is that of team.c, from its
- * root. */
+/* To ranks that are 1, 2, 4, ... above it, below the lowest bit of its own number; the tree is that
+ * of team.c, from its root. */
 static void hand_on(const struct transport *transport, const struct block *block)
 {
     for (int step = 1; step < transport->size && !(transport->rank & step); step *= 2)
@@ -106,9 +107,11 @@ static bool read_bytes(void *user, void *bytes, size_t size)
     return true;
 }
 
-/* --- the scene ------------------------------------------------------------------------------------- */
+/* --- the scene
+ * ------------------------------------------------------------------------------------- */
 
-/* Reads those of its pictures that are files. One that cannot be read stays away: rank 0 tells why when it makes the scene. */
+/* Reads those of its pictures that are files. One that cannot be read stays away: rank 0 tells why
+ * when it makes the scene. */
 static void read_textures(const struct scene_description *description, struct file_text *files)
 {
     for (size_t i = 0; i < description->texture_count; i++) {

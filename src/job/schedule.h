@@ -1,9 +1,9 @@
 /* schedule.h: when a render of many passes stops, and when it is written on the way.
  *
- * Times are seconds of clock.h. A budget of time is kept by expecting the next pass to take as long as the last one,
- * and the last picture as long as the last one did; one pass is always made. A budget of error is looked at when, at
- * the rate of Monte Carlo (1 / sqrt(passes)), it may be met, and no more often than that costs a fifth of the time,
- * since looking means to denoise.
+ * Times are seconds of clock.h. A budget of time is kept by expecting the next pass to take as long
+ * as the last one, and the last picture as long as the last one did; one pass is always made. A
+ * budget of error is looked at when, at the rate of Monte Carlo (1 / sqrt(passes)), it may be met,
+ * and no more often than that costs a fifth of the time, since looking means to denoise.
  */
 #ifndef JOB_SCHEDULE_H
 #define JOB_SCHEDULE_H
@@ -16,8 +16,8 @@ struct schedule {
     double error;            /* relative, that is good enough; 0: none is */
     double write_every;      /* a picture; INFINITY: at the end alone */
     double checkpoint_every; /* a film; likewise */
-    bool
-        shows; /* pictures to a viewer, each half a second, and no more often than a fifth of the time */
+    /* Pictures to a viewer, each half a second, and no more often than a fifth of the time. */
+    bool shows;
     bool checkpoints_are_cheap; /* and no more often than that costs a fiftieth of the time */
     double start;
     double pass_start, pass_seconds, picture_seconds, last_picture;
@@ -47,7 +47,8 @@ void schedule_note_picture(struct schedule *schedule, double start, double now);
 void schedule_note_show(struct schedule *schedule, double start, double now);
 void schedule_note_checkpoint(struct schedule *schedule, double start, double now);
 
-/* Whether the error ought to be looked at after so many passes; and what it is then, which took some time to tell. */
+/* Whether the error ought to be looked at after so many passes; and what it is then, which took
+ * some time to tell. */
 bool schedule_wants_error(const struct schedule *schedule, uint32_t passes);
 void schedule_note_error(struct schedule *schedule, uint32_t passes, double estimate,
                          double seconds);

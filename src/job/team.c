@@ -43,7 +43,8 @@ struct team {
     _Atomic(uint32_t) done;
 };
 
-/* --- dealing, under the lock of rank 0 -------------------------------------------------------------- */
+/* --- dealing, under the lock of rank 0
+ * -------------------------------------------------------------- */
 
 /* The next pass that nobody has; false where there is none. */
 static bool deal(struct team *team, uint32_t *pass)
@@ -55,8 +56,8 @@ static bool deal(struct team *team, uint32_t *pass)
     return true;
 }
 
-/* Gives a rank that waits something to do. Without passes it goes on waiting, for the end, unless there are some when
- * it is asked next. */
+/* Gives a rank that waits something to do. Without passes it goes on waiting, for the end, unless
+ * there are some when it is asked next. */
 static void answer(struct team *team, int rank)
 {
     struct member *member = &team->members[rank];
@@ -100,7 +101,8 @@ static void *answer_requests(void *user)
         atomic_fetch_add(&team->done, request.done);
         if (request.stopped)
             atomic_store(&team->stopped, true);
-        /* Rank 0 sends one when it has called to the end, of which some may have been told by that. */
+        /* Rank 0 sends one when it has called to the end, of which some may have been told by
+         * that. */
         if (rank > 0) {
             team->members[rank].waits = true;
             answer(team, rank);
@@ -111,7 +113,8 @@ static void *answer_requests(void *user)
     return NULL;
 }
 
-/* --- starting --------------------------------------------------------------------------------------- */
+/* --- starting
+ * --------------------------------------------------------------------------------------- */
 
 bool team_agrees(const struct transport *transport, uint64_t digest, int *odd_rank)
 {
@@ -165,10 +168,11 @@ ps_result team_create(const struct transport *transport, struct film_sum *film, 
     return transport->rank == 0 ? start_dealing(team, error) : PS_OK;
 }
 
-/* --- gathering -------------------------------------------------------------------------------------- */
+/* --- gathering
+ * -------------------------------------------------------------------------------------- */
 
-/* A rank receives from those 1, 2, 4, ... above it while that bit of its own number is 0, and then sends the sum to the
- * one below it by its lowest bit. */
+/* A rank receives from those 1, 2, 4, ... above it while that bit of its own number is 0, and then
+ * sends the sum to the one below it by its lowest bit. */
 static void gather(struct team *team)
 {
     const struct transport *transport = team->transport;
@@ -205,7 +209,8 @@ ps_result team_gather(struct team *team, struct error *error)
     return result_of_gathering(team, error);
 }
 
-/* --- the render's side ------------------------------------------------------------------------------ */
+/* --- the render's side
+ * ------------------------------------------------------------------------------ */
 
 /* Another rank asks rank 0 what to do, and gathers until it is something else. */
 static struct order next_order(struct team *team, bool stopped)

@@ -1,7 +1,8 @@
 /* transport.h: how processes that render one job together reach each other.
  *
- * Messages between two processes arrive in the order in which they are sent, for each tag. Several threads of a
- * process may use it at once. What fails ends the process: there is nobody left to tell.
+ * Messages between two processes arrive in the order in which they are sent, for each tag. Several
+ * threads of a process may use it at once. What fails ends the process: there is nobody left to
+ * tell.
  */
 #ifndef JOB_TRANSPORT_H
 #define JOB_TRANSPORT_H
@@ -26,13 +27,13 @@ struct transport {
     void (*end)(void);
 };
 
-/* What a module exports by the name TRANSPORT_ENTRY: joins the job's other processes, once. 0, and why in `message`,
- * where that fails. The name changes with struct transport. */
+/* What a module exports by the name TRANSPORT_ENTRY: joins the job's other processes, once. 0, and
+ * why in `message`, where that fails. The name changes with struct transport. */
 #define TRANSPORT_ENTRY "psplat_transport_v1"
 typedef int (*transport_entry)(struct transport *transport, char *message, size_t size);
 
-/* Loads the module for MPI, which lies beside the folder of psplat's plugins, and joins. PS_ERROR_IO where psplat was
- * built without it; the module stays loaded. */
+/* Loads the module for MPI, which lies beside the folder of psplat's plugins, and joins.
+ * PS_ERROR_IO where psplat was built without it; the module stays loaded. */
 ps_result transport_load_mpi(struct transport *transport, struct error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* first_scene.c: the text of a first scene, line by line. It is read by people who have not seen another, so it
- * shows a little of everything, and says what it shows. */
+/* first_scene.c: the text of a first scene, line by line. It is read by people who have not seen
+ * another, so it shows a little of everything, and says what it shows. */
 #include "model/model.h"
 
 /* clang-format off */

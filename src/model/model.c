@@ -26,7 +26,8 @@ static struct box box_of(const struct scene_description *fragment)
     return box;
 }
 
-/* Also such as the file names and lacks: that is told where the scene is read, unless the scene has others for them. */
+/* Also such as the file names and lacks: that is told where the scene is read, unless the scene has
+ * others for them. */
 static bool has_materials(const struct scene_description *fragment)
 {
     bool some = false;
@@ -35,8 +36,8 @@ static bool has_materials(const struct scene_description *fragment)
     return some;
 }
 
-/* Whether a surface shines. It is what rooms are lit by; on other things it is a sign, or a lamp that lights
- * little. */
+/* Whether a surface shines. It is what rooms are lit by; on other things it is a sign, or a lamp
+ * that lights little. */
 static bool shines(const struct scene_description *fragment)
 {
     bool some = false;

@@ -1,8 +1,8 @@
 /* model.h: a lone mesh file as a scene.
  *
- * Whoever has a model and no scene wants to see it: whole, from a good side, and lit. The scene for that is written
- * as text, for the parser to read and for people to go on with, so that nothing about it is hidden. What the file
- * has itself, a camera or lights, goes before what it lacks.
+ * Whoever has a model and no scene wants to see it: whole, from a good side, and lit. The scene for
+ * that is written as text, for the parser to read and for people to go on with, so that nothing
+ * about it is hidden. What the file has itself, a camera or lights, goes before what it lacks.
  */
 #ifndef MODEL_MODEL_H
 #define MODEL_MODEL_H
@@ -34,13 +34,14 @@ struct model_file {
     double memory_limit;
 };
 
-/* PS_ERROR_INVALID where nothing is to be seen in it, _IO or _MEMORY, with a message that names it. `content`: what was read,
- * for the scene that names the file; to be released, and empty after a failure. */
+/* PS_ERROR_INVALID where nothing is to be seen in it, _IO or _MEMORY, with a message that names it.
+ * `content`: what was read, for the scene that names the file; to be released, and empty after a
+ * failure. */
 ps_result model_read(const struct model_file *file, struct model *model, struct mesh_ahead *content,
                      struct error *error);
 
-/* The scene, to be freed, in which the model is `file`: a path from where the scene's text is, in UTF-8, that does not
- * begin as a formula does. NULL when out of memory. */
+/* The scene, to be freed, in which the model is `file`: a path from where the scene's text is, in
+ * UTF-8, that does not begin as a formula does. NULL when out of memory. */
 char *model_scene_text(const struct model *model, const char *file);
 
 /* A first scene without a model, with comments that tell what to change: lines, then NULL. */

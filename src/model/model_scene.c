@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The absolute path, without symbolic links, of the folder that a file is in; to be freed. NULL, with errno. */
+/* The absolute path, without symbolic links, of the folder that a file is in; to be freed. NULL,
+ * with errno. */
 static char *folder_of(const char *path)
 {
     size_t length = (size_t)(path_name(path) - path);

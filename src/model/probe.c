@@ -1,5 +1,6 @@
-/* probe.c: Möller and Trumbore 1997, Fast, minimum storage ray-triangle intersection; each triangle is placed once
- * for all rays that meet the box around its object: many of few, of one that has thousands of instances. */
+/* probe.c: Möller and Trumbore 1997, "Fast, minimum storage ray-triangle intersection". Each
+ * triangle is placed once for all rays that meet the box around its object: many of few, of one
+ * that has thousands of instances. */
 #include "model/probe.h"
 
 #include "scene/box.h"

@@ -1,4 +1,5 @@
-/* probe.h: rays through a model, of which a few tell enough that a tree of its triangles would not pay. */
+/* probe.h: rays through a model, of which a few tell enough that a tree of its triangles would not
+ * pay. */
 #ifndef MODEL_PROBE_H
 #define MODEL_PROBE_H
 

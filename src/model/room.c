@@ -1,9 +1,10 @@
 /* room.c: rays from the middle of the model tell whether it is a room.
  *
- * What such a ray meets last is the outermost surface. Of a thing that surface turns its front away from the
- * middle, of a room towards it. Where many rays leave without meeting anything, the room is open, as a stage is; level
- * rays tell its walls from ground, which turns its front up and which many rays from above it meet. A closed room with
- * nothing in it is more often a thing whose faces are wound the wrong way round, and is taken for that.
+ * What such a ray meets last is the outermost surface. Of a thing that surface turns its front away
+ * from the middle, of a room towards it. Where many rays leave without meeting anything, the room
+ * is open, as a stage is; level rays tell its walls from ground, which turns its front up and which
+ * many rays from above it meet. A closed room with nothing in it is more often a thing whose faces
+ * are wound the wrong way round, and is taken for that.
  */
 #include "model/room.h"
 
@@ -55,7 +56,8 @@ static ps_vec3 inside(const struct box *box, ps_vec3 share)
     return ps_add(box->low, (ps_vec3){size.x * share.x, size.y * share.y, size.z * share.z});
 }
 
-/* --- the camera ----------------------------------------------------------------------------------- */
+/* --- the camera
+ * ----------------------------------------------------------------------------------- */
 
 /* Before the open side, or above it. */
 static void look_in(struct room *room, const struct box *box, ps_vec3 opening)
@@ -74,7 +76,8 @@ static void look_in(struct room *room, const struct box *box, ps_vec3 opening)
     room->angle = camera.angle;
 }
 
-/* How far one sees from there, in directions about that of view; 0 where it is in a wall or thing. */
+/* How far one sees from there, in directions about that of view; 0 where it is in a wall or
+ * thing. */
 static float openness(const struct probe glances[GLANCES])
 {
     float sum = 0.0f;
@@ -119,7 +122,8 @@ static void stand_inside(struct room *room, const struct scene_description *frag
     }
 }
 
-/* Shares of the directions in which the middle sees a wall, nothing at all, and things before what is outermost. */
+/* Shares of the directions in which the middle sees a wall, nothing at all, and things before what
+ * is outermost. */
 struct shares {
     float walls, open, full;
     float level;     /* of the level directions those that meet a wall */

@@ -1,7 +1,7 @@
 /* room.h: whether a model is a room, and from where it is seen.
  *
- * A room has walls with a front inside, often without an outside. A camera before it sees their backs, and no sky
- * lights it.
+ * A room has walls with a front inside, often without an outside. A camera before it sees their
+ * backs, and no sky lights it.
  */
 #ifndef MODEL_ROOM_H
 #define MODEL_ROOM_H

@@ -1,8 +1,8 @@
 /* scene_text.c: the scene that shows a lone model, section by section.
  *
- * Sky, sun and ground go together: a sun as wide as a softbox, from the left, the front and above, models the
- * shape; and the ground has the radiance of the sky where both are seen, so that no horizon stands behind the
- * model,
+ * Sky, sun and ground go together: a sun as wide as a softbox, from the left, the front and above,
+ * models the shape; and the ground has the radiance of the sky where both are seen, so that no
+ * horizon stands behind the model,
  *
  *     reflectance = pi L_sky / (E_sun cos(theta) + pi L_sky).
  */
@@ -116,7 +116,8 @@ static void write_lights(FILE *stream, const struct model *model)
             SUN_IRRADIANCE);
 }
 
-/* A plane lies around its point next to the origin, which is moved where the model is far from there. */
+/* A plane lies around its point next to the origin, which is moved where the model is far from
+ * there. */
 static void write_ground(FILE *stream, const struct box *box)
 {
     double radius = 0.5 * (double)ps_length(ps_subtract(box->high, box->low));

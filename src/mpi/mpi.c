@@ -1,9 +1,9 @@
-/* mpi.c: MPI as the transport of a job's processes (job/transport.h); a module of its own, which only `--mpi` loads, so
- * that the program neither needs MPI nor starts slower where it is there.
+/* mpi.c: MPI as the transport of a job's processes (job/transport.h); a module of its own, which
+ * only `--mpi` loads, so that the program neither needs MPI nor starts slower where it is there.
  *
- * MPI counts elements in an int, so large messages go in pieces. Whoever waits for a message asks for it now and then,
- * and sleeps between: MPI's own waiting takes a processor, from the passes of its own process. Errors end the job, as
- * MPI has it by default.
+ * MPI counts elements in an int, so large messages go in pieces. Whoever waits for a message asks
+ * for it now and then, and sleeps between: MPI's own waiting takes a processor, from the passes of
+ * its own process. Errors end the job, as MPI has it by default.
  */
 #include "job/transport.h"
 

@@ -1,7 +1,8 @@
 /* camera.c: see camera.h.
  *
- * The screen window of pbrt's perspective camera is -1..1 along the shorter side of the picture, where that side spans
- * `fov`: the half width of the window times tan(fov / 2) is the tangent of half the horizontal angle.
+ * The screen window of pbrt's perspective camera is -1..1 along the shorter side of the picture,
+ * where that side spans `fov`: the half width of the window times tan(fov / 2) is the tangent of
+ * half the horizontal angle.
  */
 #include "pbrt/camera.h"
 
@@ -21,7 +22,8 @@ void camera_settle(struct importer *importer)
     importer->mirror = transform_determinant(&importer->camera) < 0.0 ? 1.0 : -1.0;
 }
 
-/* --- film ----------------------------------------------------------------------------------------- */
+/* --- film
+ * ----------------------------------------------------------------------------------------- */
 
 static void film_size(struct importer *importer, const struct statement *film, long size[2])
 {
@@ -51,8 +53,8 @@ static void read_crop(struct importer *importer, const struct statement *film, c
             width, height);
 }
 
-/* In stops: of pbrt-v3 the factor `scale`, of pbrt-v4 that of its sensor, the time that the shutter is open times
- * ISO / 100. */
+/* In stops: of pbrt-v3 the factor `scale`, of pbrt-v4 that of its sensor, the time that the shutter
+ * is open times ISO / 100. */
 static double film_exposure(struct importer *importer, const struct statement *film,
                             const struct statement *camera)
 {
@@ -102,7 +104,8 @@ static void write_image(struct importer *importer, const struct statement *film,
     statement_report_unused(importer, film);
 }
 
-/* --- camera --------------------------------------------------------------------------------------- */
+/* --- camera
+ * --------------------------------------------------------------------------------------- */
 
 static struct screen read_screen(struct importer *importer, const struct statement *camera,
                                  const long size[2])

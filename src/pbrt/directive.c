@@ -1,4 +1,5 @@
-/* directive.c: finds directives by their words, and what they take; see directive.h and parser.h. */
+/* directive.c: finds directives by their words, and what they take; see directive.h and
+ * parser.h. */
 #include "pbrt/directive.h"
 
 #include "base/suggestion.h"

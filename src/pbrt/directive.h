@@ -1,7 +1,7 @@
 /* directive.h: what carries out the directives of a pbrt scene.
  *
- * Each file of directives has a table; directive.c looks words up in all of them. A directive starts with parser.token
- * on what follows its word, and takes what belongs to it.
+ * Each file of directives has a table; directive.c looks words up in all of them. A directive
+ * starts with parser.token on what follows its word, and takes what belongs to it.
  */
 #ifndef PBRT_DIRECTIVE_H
 #define PBRT_DIRECTIVE_H

@@ -1,4 +1,5 @@
-/* directive_transform.c: directives that change the current transform (pbrt-v4 file format, "Transformations"). */
+/* directive_transform.c: directives that change the current transform (pbrt-v4 file format,
+ * "Transformations"). */
 #include "pbrt/directive.h"
 
 #include "pbrt/state.h"

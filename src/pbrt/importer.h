@@ -1,4 +1,5 @@
-/* importer.h: what the parts of the converter share: the state of the scene that is read, and what came of it.
+/* importer.h: what the parts of the converter share: the state of the scene that is read, and what
+ * came of it.
  *
  * One thread at a time. Everything is owned by the importer, which pbrt_convert makes and releases.
  */
@@ -123,20 +124,22 @@ bool importer_grow(struct importer *importer, void **items, size_t *capacity, si
 /* Takes the statement over, which is emptied; NULL: reported. */
 const struct statement *importer_keep(struct importer *importer, struct statement *statement);
 
-/* The map from an object's space into the scene's, of which the world's z axis may be mirrored. False, reported, where
- * it has no inverse. */
+/* The map from an object's space into the scene's, of which the world's z axis may be mirrored.
+ * False, reported, where it has no inverse. */
 bool importer_placement(struct importer *importer, const struct transform *ctm,
                         const struct origin *origin, int width, struct transform *placement);
 
 /* Where objects are written: the current object's group, or the scene. */
 FILE *importer_objects(struct importer *importer);
 
-/* The path under which the scene names a file that the pbrt scene names; to be freed. NULL: reported. */
+/* The path under which the scene names a file that the pbrt scene names; to be freed. NULL:
+ * reported. */
 char *importer_file_name(struct importer *importer, const char *name);
-/* The path under which that file is opened now, which is not to be overwritten; to be freed. NULL: reported. */
+/* The path under which that file is opened now, which is not to be overwritten; to be freed. NULL:
+ * reported. */
 char *importer_file_path(struct importer *importer, const char *name);
-/* For a file that only the new scene opens: warns where it is not there. With a folder to read from, one that does not
- * lie there is an error. */
+/* For a file that only the new scene opens: warns where it is not there. With a folder to read
+ * from, one that does not lie there is an error. */
 void importer_check_file(struct importer *importer, const struct place *place, const char *path);
 
 #endif

@@ -1,8 +1,9 @@
 /* light.c: see light.h.
  *
- * The kinds and parameters are those of the pbrt-v4 and pbrt-v3 file formats, "Lights". Radiances are carried over as
- * numbers: a light of 1 is one of 1 W/(m^2 sr) here. pbrt-v4's power and illuminance, in lumens and lux, become
- * numbers by the same rule: a surface that shines with 1 has pi for each unit of its area.
+ * The kinds and parameters are those of the pbrt-v4 and pbrt-v3 file formats, "Lights". Radiances
+ * are carried over as numbers: a light of 1 is one of 1 W/(m^2 sr) here. pbrt-v4's power and
+ * illuminance, in lumens and lux, become numbers by the same rule: a surface that shines with 1 has
+ * pi for each unit of its area.
  */
 #include "pbrt/light.h"
 
@@ -47,7 +48,8 @@ void light_color(struct importer *importer, const struct statement *statement, c
         }
 }
 
-/* --- kinds ---------------------------------------------------------------------------------------- */
+/* --- kinds
+ * ---------------------------------------------------------------------------------------- */
 
 static void begin(FILE *out, const char *kind, const char *key, struct vector value)
 {

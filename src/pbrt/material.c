@@ -1,7 +1,7 @@
 /* material.c: see material.h.
  *
- * The names and defaults are those of the pbrt-v4 and pbrt-v3 file formats, "Materials". A clear coat reflects
- * F = ((eta - 1) / (eta + 1))^2 of light from straight ahead.
+ * The names and defaults are those of the pbrt-v4 and pbrt-v3 file formats, "Materials". A clear
+ * coat reflects F = ((eta - 1) / (eta + 1))^2 of light from straight ahead.
  */
 #include "pbrt/material_kinds.h"
 
@@ -12,7 +12,8 @@
 static const double black[3] = {0, 0, 0}, white[3] = {1, 1, 1}, half[3] = {0.5, 0.5, 0.5},
                     quarter[3] = {0.25, 0.25, 0.25};
 
-/* --- kinds ---------------------------------------------------------------------------------------- */
+/* --- kinds
+ * ---------------------------------------------------------------------------------------- */
 
 static void put_glossy(FILE *out, const struct pattern *diffuse, const struct pattern *specular,
                        const struct pattern *roughness)

@@ -12,8 +12,8 @@ struct surface {
     bool has_holes;
 };
 
-/* The surface of a shape in the current graphics state. `area` is the shape's in the scene, for lights with a power;
- * below 0: not known. */
+/* The surface of a shape in the current graphics state. `area` is the shape's in the scene, for
+ * lights with a power; below 0: not known. */
 struct surface material_surface(struct importer *importer, const struct statement *shape,
                                 double area);
 
@@ -27,8 +27,8 @@ struct pattern;
 bool material_opacity(struct importer *importer, const struct statement *statement,
                       struct pattern *opacity);
 
-/* Writes psd(5)'s keys of a material, but for its opacity; false, with nothing written, for one that is no surface. `depth` counts mixes
- * that it is in. */
+/* Writes psd(5)'s keys of a material, but for its opacity; false, with nothing written, for one
+ * that is no surface. `depth` counts mixes that it is in. */
 bool material_put(struct importer *importer, FILE *out, const struct statement *statement,
                   int depth);
 

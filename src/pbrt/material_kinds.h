@@ -1,4 +1,5 @@
-/* material_kinds.h: what the kinds of materials have in common, and those that reflect or refract like a mirror.
+/* material_kinds.h: what the kinds of materials have in common, and those that reflect or refract
+ * like a mirror.
  *
  * A kind writes psd(5)'s key of it with the value.
  */
@@ -20,7 +21,8 @@ struct pattern material_read_reflectance(struct importer *importer,
 /* An index of refraction, "eta" or "index", which may be a spectrum; within 0.1..10. */
 double material_index(struct importer *importer, const struct statement *statement,
                       double otherwise);
-/* Of a border between 1 and the index, for light from straight ahead: ((index - 1) / (index + 1))^2. */
+/* Of a border between 1 and the index, for light from straight ahead: ((index - 1) / (index +
+ * 1))^2. */
 double material_normal_reflectance(double index);
 
 /* `prefix` stands before its parameters' names. */

@@ -134,8 +134,8 @@ void material_dielectric(struct importer *importer, FILE *out, const struct stat
     fputc('}', out);
 }
 
-/* A sheet reflects R = 2 F / (1 + F) of light from straight ahead, between its two sides, and lets the rest through
- * as it came: a border between like and like. */
+/* A sheet reflects R = 2 F / (1 + F) of light from straight ahead, between its two sides, and lets
+ * the rest through as it came: a border between like and like. */
 void material_thin_dielectric(struct importer *importer, FILE *out,
                               const struct statement *statement)
 {

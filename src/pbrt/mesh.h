@@ -5,8 +5,8 @@
 #include "pbrt/material.h"
 #include "writer/mesh.h"
 
-/* Adds the mesh as an object, by the shape statement's material and the current transform. ReverseOrientation
- * counts. */
+/* Adds the mesh as an object, by the shape statement's material and the current transform.
+ * ReverseOrientation counts. */
 void mesh_add(struct importer *importer, const struct statement *shape, struct mesh *mesh);
 
 #endif

@@ -24,12 +24,14 @@ struct parser {
     struct token token;   /* the next one */
 };
 
-/* Reads the whole text; `name` stands in messages, and outlives the importer's sink. Errors are in the sink. */
+/* Reads the whole text; `name` stands in messages, and outlives the importer's sink. Errors are in
+ * the sink. */
 void parser_read(struct importer *importer, const char *name, const char *text, size_t length);
 
 /* Tokens of the open files, as one stream. */
 void parser_advance(struct parser *parser);
-/* Opens a file that goes before what follows. What an imported one does to the graphics state ends with it. */
+/* Opens a file that goes before what follows. What an imported one does to the graphics state ends
+ * with it. */
 void parser_include(struct parser *parser, const char *name, bool is_import,
                     const struct origin *origin, int width);
 

@@ -1,7 +1,8 @@
 /* patch.c: bilinear patches and height fields as meshes.
  *
- * A patch has the corners p00, p10, p01, p11 in the order of its indices; flat ones become two triangles, twisted ones
- * a grid. A height field has z over x and y from 0 to 1, nu by nv numbers "Pz" with x the faster (pbrt-v3).
+ * A patch has the corners p00, p10, p01, p11 in the order of its indices; flat ones become two
+ * triangles, twisted ones a grid. A height field has z over x and y from 0 to 1, nu by nv numbers
+ * "Pz" with x the faster (pbrt-v3).
  */
 #include "pbrt/shape.h"
 

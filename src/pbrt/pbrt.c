@@ -107,7 +107,8 @@ ps_result pbrt_convert(const char *name, const char *text, size_t length,
     return importer.no_memory ? PS_ERROR_MEMORY : PS_ERROR_INVALID;
 }
 
-/* --- files ------------------------------------------------------------------------------------------ */
+/* --- files
+ * ------------------------------------------------------------------------------------------ */
 
 struct request {
     const struct pbrt_options *options;

@@ -1,7 +1,9 @@
-/* quadric.c: pbrt's quadrics (Pharr, Jakob and Humphreys, "Physically based rendering", on quadrics).
+/* quadric.c: pbrt's quadrics (Pharr, Jakob and Humphreys, "Physically based rendering", on
+ * quadrics).
  *
- * Whole ones are psplat's own shapes, parts of them meshes. All turn about z; u runs with the angle from x towards y,
- * v along z or, of discs, inwards. psplat's spheres have their poles on y, and its u starts at -x.
+ * Whole ones are psplat's own shapes, parts of them meshes. All turn about z; u runs with the angle
+ * from x towards y, v along z or, of discs, inwards. psplat's spheres have their poles on y, and
+ * its u starts at -x.
  */
 #include "pbrt/shape.h"
 
@@ -71,7 +73,8 @@ static struct vector hyperboloid_point(const void *user, double u, double v)
     return (struct vector){x * c - y * s, x * s + y * c, between(q->first.z, q->last.z, v)};
 }
 
-/* --- psplat's own shapes ---------------------------------------------------------------------------- */
+/* --- psplat's own shapes
+ * ---------------------------------------------------------------------------- */
 
 /* pbrt's x, y, z of psplat's: the pole from y to z, and u = 0 from -x to x. */
 static const struct transform sphere_frame = {{{-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}}};
@@ -115,7 +118,8 @@ static void put_disk(FILE *out, const struct quadric *q)
     }
 }
 
-/* --- reading ---------------------------------------------------------------------------------------- */
+/* --- reading
+ * ---------------------------------------------------------------------------------------- */
 
 /* The polar angles of zmin and zmax. */
 static bool read_sphere(struct importer *importer, const struct statement *statement,
@@ -191,8 +195,8 @@ static const struct kind {
     {"hyperboloid", hyperboloid_point, read_hyperboloid, NULL, NULL, ROWS},
 };
 
-/* As an object of psplat's; false: that can't say what is wanted, that its back is its front, or holes of a sphere that
- * shines. */
+/* As an object of psplat's; false: that can't say what is wanted, that its back is its front, or
+ * holes of a sphere that shines. */
 static bool add_own(struct importer *importer, const struct statement *statement,
                     const struct kind *kind, const struct quadric *q, double area)
 {

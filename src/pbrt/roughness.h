@@ -1,7 +1,8 @@
 /* roughness.h: pbrt's roughness as psplat's.
  *
- * psplat's is the square root of alpha of the GGX distribution (psd(5)). pbrt's is alpha, or with `remaproughness` a
- * number from which alpha follows: pbrt-v4 alpha = sqrt(r); pbrt-v3, with x = ln max(r, 0.001),
+ * psplat's is the square root of alpha of the GGX distribution (psd(5)). pbrt's is alpha, or with
+ * `remaproughness` a number from which alpha follows: pbrt-v4 alpha = sqrt(r); pbrt-v3, with x = ln
+ * max(r, 0.001),
  *     alpha = 1.62142 + 0.819955 x + 0.1734 x^2 + 0.0171201 x^3 + 0.000640711 x^4
  * (TrowbridgeReitzDistribution::RoughnessToAlpha of either).
  */

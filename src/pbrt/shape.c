@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The path by which the scene names a mesh's file; what is compressed has to be unpacked beside it. To be freed; NULL:
- * reported. */
+/* The path by which the scene names a mesh's file; what is compressed has to be unpacked beside it.
+ * To be freed; NULL: reported. */
 static char *name_mesh(struct importer *importer, const struct place *place, const char *name)
 {
     size_t length = strlen(name);

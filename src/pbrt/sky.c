@@ -1,9 +1,9 @@
 /* sky.c: pictures of infinite lights, drawn anew by longitude and latitude as psd(5) has them.
  *
- * pbrt-v3's pictures are by longitude and latitude too, but about the z axis of the light, which the transform turns as
- * it likes. pbrt-v4's are squares: the octahedron, unfolded and stretched to equal areas (P. Clarberg, "Fast equal-area
- * mapping of the (hemi)sphere using SIMD", Journal of Graphics Tools 2008). The new picture has about as many pixels
- * around the horizon as the old one.
+ * pbrt-v3's pictures are by longitude and latitude too, but about the z axis of the light, which
+ * the transform turns as it likes. pbrt-v4's are squares: the octahedron, unfolded and stretched to
+ * equal areas (P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", Journal of
+ * Graphics Tools 2008). The new picture has about as many pixels around the horizon as the old one.
  */
 #include "pbrt/light.h"
 
@@ -54,7 +54,8 @@ static double luminance_of(const float rgba[4])
     return spectrum_luminance((const double[3]){rgba[0], rgba[1], rgba[2]});
 }
 
-/* Returns the illuminance of a surface that faces the light's z axis: the integral of luminance times cosine. */
+/* Returns the illuminance of a surface that faces the light's z axis: the integral of luminance
+ * times cosine. */
 static double draw(const struct texture *texture, const struct transform *to_light, bool square,
                    struct image *sky, float *const planes[3])
 {

@@ -191,7 +191,8 @@ void spectrum_conductor(const struct spectrum *eta, const struct spectrum *k, do
         reflectance_of(conductor_value, &(struct conductor){eta, k}, rgb);
 }
 
-/* --- reading -------------------------------------------------------------------------------------- */
+/* --- reading
+ * -------------------------------------------------------------------------------------- */
 
 void spectrum_release(struct spectrum *spectrum)
 {

@@ -1,12 +1,14 @@
-/* spectrum.h: spectra of pbrt scenes as linear colours with the primaries of Rec. 709, which psplat renders in.
+/* spectrum.h: spectra of pbrt scenes as linear colours with the primaries of Rec. 709, which psplat
+ * renders in.
  *
  *     X = integral of x(l) S(l) dl, and so Y, Z;  rgb = M (X, Y, Z)
  *
- * with the CIE 1931 matching functions in the fit of Wyman, Sloan and Shirley, "Simple analytic approximations to the
- * CIE XYZ color matching functions" (JCGT 2013), and M of sRGB (IEC 61966-2-1). Reflectances are seen under CIE D65,
- * and scaled so that one of 1 is white. Illuminants: pbrt-v3 divides by the integral of y, so that a spectrum of 1 has
- * luminance 1; pbrt-v4 divides by the illuminant's own luminance, and leaves its brightness to `scale` and `power`.
- * Wavelengths are in nm, 360 to 830.
+ * with the CIE 1931 matching functions in the fit of Wyman, Sloan and Shirley, "Simple analytic
+ * approximations to the CIE XYZ color matching functions" (JCGT 2013), and M of sRGB (IEC
+ * 61966-2-1). Reflectances are seen under CIE D65, and scaled so that one of 1 is white.
+ * Illuminants: pbrt-v3 divides by the integral of y, so that a spectrum of 1 has luminance 1;
+ * pbrt-v4 divides by the illuminant's own luminance, and leaves its brightness to `scale` and
+ * `power`. Wavelengths are in nm, 360 to 830.
  */
 #ifndef PBRT_SPECTRUM_H
 #define PBRT_SPECTRUM_H
@@ -33,7 +35,8 @@ struct spectrum {
 
 void spectrum_release(struct spectrum *spectrum);
 
-/* Reads a parameter of one of the types float, rgb, color, xyz, blackbody, spectrum. False: reported. */
+/* Reads a parameter of one of the types float, rgb, color, xyz, blackbody, spectrum. False:
+ * reported. */
 bool spectrum_read(struct importer *importer, const struct parameter *parameter,
                    struct spectrum *spectrum);
 

@@ -1,8 +1,9 @@
 /* spectrum_named.c: the spectra that pbrt-v4 has names for.
  *
- * Illuminants are their chromaticities (CIE 15:2004, 2 degrees); metals their optical constants at the middle of red,
- * green and blue, 650, 550 and 450 nm, from P. B. Johnson and R. W. Christy (1972) for the noble metals and from
- * refractiveindex.info for the others; glasses their index at 587.6 nm, from Schott's catalogue.
+ * Illuminants are their chromaticities (CIE 15:2004, 2 degrees); metals their optical constants at
+ * the middle of red, green and blue, 650, 550 and 450 nm, from P. B. Johnson and R. W. Christy
+ * (1972) for the noble metals and from refractiveindex.info for the others; glasses their index at
+ * 587.6 nm, from Schott's catalogue.
  */
 #include "pbrt/spectrum.h"
 

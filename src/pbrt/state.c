@@ -92,7 +92,8 @@ const struct transform *state_find_coordinates(const struct importer *importer, 
     return NULL;
 }
 
-/* --- objects -------------------------------------------------------------------------------------- */
+/* --- objects
+ * -------------------------------------------------------------------------------------- */
 
 bool state_begin_object(struct importer *importer, const char *name, const struct origin *origin,
                         int width)
@@ -136,7 +137,8 @@ bool state_end_object(struct importer *importer, const struct origin *origin, in
     return true;
 }
 
-/* Groups hold shapes as the scene has them, mirrored or not: their instances are placed by M ctm M^-1. */
+/* Groups hold shapes as the scene has them, mirrored or not: their instances are placed by M ctm
+ * M^-1. */
 void state_add_instance(struct importer *importer, const char *name, const struct origin *origin,
                         int width)
 {

@@ -2,10 +2,11 @@
  *
  *     Shape "sphere" "float radius" [ 2 ]
  *
- * A parameter is `"TYPE NAME"` and a value, or several in brackets (pbrt-v4 file format, "Parameter lists"). A lookup
- * names the type that it wants; a parameter of another type is an error. What no lookup asked for is reported by
- * statement_report_unused: so nothing is left out in silence. pbrt-v4's Attribute directive gives parameters to all
- * later statements of a kind; a statement's own go before those.
+ * A parameter is `"TYPE NAME"` and a value, or several in brackets (pbrt-v4 file format, "Parameter
+ * lists"). A lookup names the type that it wants; a parameter of another type is an error. What no
+ * lookup asked for is reported by statement_report_unused: so nothing is left out in silence.
+ * pbrt-v4's Attribute directive gives parameters to all later statements of a kind; a statement's
+ * own go before those.
  */
 #ifndef PBRT_STATEMENT_H
 #define PBRT_STATEMENT_H
@@ -58,7 +59,8 @@ struct attributes {
 
 struct importer;
 
-/* Reads parameters up to the first token that begins none, which it leaves in *token. False: reported. */
+/* Reads parameters up to the first token that begins none, which it leaves in *token. False:
+ * reported. */
 bool statement_read(struct importer *importer, struct lexer *lexer, struct token *token,
                     struct statement *statement);
 void statement_release(struct statement *statement);
@@ -86,7 +88,8 @@ const char *statement_string(struct importer *importer, const struct statement *
 struct vector statement_vector(struct importer *importer, const struct statement *statement,
                                const char *name, struct vector otherwise);
 
-/* A list of values, each of `width` numbers; NULL where there is none, or where that is an error. */
+/* A list of values, each of `width` numbers; NULL where there is none, or where that is an
+ * error. */
 const double *statement_list(struct importer *importer, const struct statement *statement,
                              const char *name, size_t width, size_t *count);
 

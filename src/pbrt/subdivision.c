@@ -1,11 +1,13 @@
-/* subdivision.c: Loop subdivision (C. Loop, "Smooth subdivision surfaces based on triangles", 1987), with the weights
- * of Pharr, Jakob and Humphreys, "Physically based rendering", on subdivision surfaces.
+/* subdivision.c: Loop subdivision (C. Loop, "Smooth subdivision surfaces based on triangles",
+ * 1987), with the weights of Pharr, Jakob and Humphreys, "Physically based rendering", on
+ * subdivision surfaces.
  *
- * A vertex of valence n moves to (1 - n b) p + b sum of its neighbours, with b = 3/16 for n = 3 and else 3/(8 n); on a
- * border to 3/4 p + 1/8 of the two along it. An edge gets a vertex at 3/8 of its ends and 1/8 of the two corners
- * across, on a border at its middle. In the end vertices move to their limits, by g = 1/(n + 3/(8 b)) in place of b, 1/5 on a
- * border, and have the normal S x T of the tangents S = sum of cos(2 pi j/n) p_j, T the same of sines, over the ring of
- * neighbours. Rings are walked clockwise, as pbrt does, whose normals so are on the backs of its triangles.
+ * A vertex of valence n moves to (1 - n b) p + b sum of its neighbours, with b = 3/16 for n = 3 and
+ * else 3/(8 n); on a border to 3/4 p + 1/8 of the two along it. An edge gets a vertex at 3/8 of its
+ * ends and 1/8 of the two corners across, on a border at its middle. In the end vertices move to
+ * their limits, by g = 1/(n + 3/(8 b)) in place of b, 1/5 on a border, and have the normal S x T of
+ * the tangents S = sum of cos(2 pi j/n) p_j, T the same of sines, over the ring of neighbours.
+ * Rings are walked clockwise, as pbrt does, whose normals so are on the backs of its triangles.
  *
  * Edges are found by sorting: the order of the vertices is that of the input, whatever the machine.
  */
@@ -189,12 +191,13 @@ static bool divide(struct importer *importer, struct mesh *mesh)
     return good;
 }
 
-/* --- normals -------------------------------------------------------------------------------------- */
+/* --- normals
+ * -------------------------------------------------------------------------------------- */
 
 #define LARGEST_RING 256
 
-/* The triangles around each vertex: first[i] up to first[i + 1] of `corners`, three times the triangle plus the
- * corner. */
+/* The triangles around each vertex: first[i] up to first[i + 1] of `corners`, three times the
+ * triangle plus the corner. */
 struct fans {
     uint32_t *first, *corners;
 };

@@ -1,4 +1,5 @@
-/* surface.c: the material of a shape: that of the graphics state, with its light and its holes; see material.h. */
+/* surface.c: the material of a shape: that of the graphics state, with its light and its holes; see
+ * material.h. */
 #include "pbrt/material.h"
 
 #include "pbrt/light.h"

@@ -1,6 +1,7 @@
 /* texture.c: see texture.h.
  *
- * The classes of textures and their parameters are those of the pbrt-v4 and pbrt-v3 file formats, "Textures".
+ * The classes of textures and their parameters are those of the pbrt-v4 and pbrt-v3 file formats,
+ * "Textures".
  */
 #include "pbrt/texture.h"
 
@@ -35,8 +36,8 @@ static bool wants_numbers(const struct importer *importer, const struct statemen
     return is_texture && statement->of_numbers;
 }
 
-/* Textures of floats and of spectra are two sets of names: the wanted one goes first. pbrt-v3's are those from before
- * the statement. */
+/* Textures of floats and of spectra are two sets of names: the wanted one goes first. pbrt-v3's are
+ * those from before the statement. */
 static const struct pattern *find_texture(const struct importer *importer,
                                           const struct statement *statement, const char *parameter,
                                           const char *name)
@@ -85,7 +86,8 @@ bool texture_parameter(struct importer *importer, const struct statement *statem
     return true;
 }
 
-/* --- combinations --------------------------------------------------------------------------------- */
+/* --- combinations
+ * --------------------------------------------------------------------------------- */
 
 /* The colour of a pattern where only one can be used. */
 static void flatten(struct importer *importer, const struct statement *statement,
@@ -130,7 +132,8 @@ static struct pattern mixture(struct importer *importer, const struct statement 
     return pattern_constant(sum);
 }
 
-/* --- patterns ------------------------------------------------------------------------------------- */
+/* --- patterns
+ * ------------------------------------------------------------------------------------- */
 
 /* pbrt-v4's transform is texture to world; pbrt-v3 takes the same one as world to texture. */
 static void place_pattern(struct importer *importer, const struct statement *statement,
@@ -142,7 +145,8 @@ static void place_pattern(struct importer *importer, const struct statement *sta
     importer_placement(importer, &ctm, &statement->origin, statement->width, &pattern->placement);
 }
 
-/* A picture of 2 x 2 texels, which repeats: on u and v the first colour lies where floor(u) + floor(v) is even. */
+/* A picture of 2 x 2 texels, which repeats: on u and v the first colour lies where floor(u) +
+ * floor(v) is even. */
 static void draw_checker(struct importer *importer, struct pattern *pattern)
 {
     struct side_file *file =

@@ -1,7 +1,7 @@
 /* texture.h: pbrt's textures as psplat's patterns.
  *
- * A texture becomes one pattern where it is defined. Patterns can be multiplied by colours, but not by each other: what
- * combines several that vary keeps the one that counts most, with a warning.
+ * A texture becomes one pattern where it is defined. Patterns can be multiplied by colours, but not
+ * by each other: what combines several that vary keeps the one that counts most, with a warning.
  */
 #ifndef PBRT_TEXTURE_H
 #define PBRT_TEXTURE_H
@@ -50,8 +50,8 @@ void put_pattern(FILE *out, const struct pattern *pattern, bool is_number);
 void texture_define(struct importer *importer, const struct statement *statement, const char *name,
                     const char *type);
 
-/* The parameter of that name: a texture's name, a number, or a spectrum; `otherwise` where it is absent. Returns
- * whether it is there. Errors are reported. */
+/* The parameter of that name: a texture's name, a number, or a spectrum; `otherwise` where it is
+ * absent. Returns whether it is there. Errors are reported. */
 bool texture_parameter(struct importer *importer, const struct statement *statement,
                        const char *name, const double otherwise[3], struct pattern *pattern);
 

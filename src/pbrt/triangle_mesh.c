@@ -1,5 +1,5 @@
-/* triangle_mesh.c: meshes as pbrt lists them: points "P", "indices" by threes, and for each point "N" and "uv" (in
- * pbrt-v3 also "st").
+/* triangle_mesh.c: meshes as pbrt lists them: points "P", "indices" by threes, and for each point
+ * "N" and "uv" (in pbrt-v3 also "st").
  */
 #include "pbrt/shape.h"
 
@@ -24,8 +24,8 @@ static bool read_indices(struct importer *importer, const struct statement *stat
     return true;
 }
 
-/* A list that is absent, or has one value for each point; otherwise it is left out, reported. pbrt-v3 has room for
- * texture coordinates that are too many. */
+/* A list that is absent, or has one value for each point; otherwise it is left out, reported.
+ * pbrt-v3 has room for texture coordinates that are too many. */
 static const double *read_for_points(struct importer *importer, const struct statement *statement,
                                      const char *name, size_t width, size_t points)
 {

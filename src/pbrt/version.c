@@ -1,6 +1,7 @@
 /* version.c: see version.h.
  *
- * Words that one version alone has: directives, kinds, names of parameters, and bools without quotes.
+ * Words that one version alone has: directives, kinds, names of parameters, and bools without
+ * quotes.
  */
 #include "pbrt/version.h"
 

@@ -1,9 +1,11 @@
-/* crop.c: whether a part of the picture can be rendered alone, and what of it may not match the whole.
+/* crop.c: whether a part of the picture can be rendered alone, and what of it may not match the
+ * whole.
  *
- * A part's film is that of the whole picture, bit for bit: random numbers go by pixels of the picture, and its window
- * holds the tiles that means over neighbours look at (film/gbuffer.h). An estimator that cannot keep to that is refused.
- * Of what makes a picture of the film, a filter that reaches past the part's border, or a number that follows from all
- * pixels, is another one than in the whole: there is a warning. Where parts make up a picture (render_run_parts), only the
+ * A part's film is that of the whole picture, bit for bit: random numbers go by pixels of the
+ * picture, and its window holds the tiles that means over neighbours look at (film/gbuffer.h). An
+ * estimator that cannot keep to that is refused. Of what makes a picture of the film, a filter that
+ * reaches past the part's border, or a number that follows from all pixels, is another one than in
+ * the whole: there is a warning. Where parts make up a picture (render_run_parts), only the
  * denoiser may be such a filter, and it gets a margin.
  */
 #include "pipeline/render.h"

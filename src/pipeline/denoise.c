@@ -62,10 +62,11 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
     };
 }
 
-/* Where a pixel saw a surface in a part of its samples only, its light is the mean over all of them, but its albedo and
- * normal are those of the surface. A denoiser compares pixels by these, so it gets the light of that part alone: of what
- * is visible (`of_part`), or back to the mean. Of gloss that is all: whether a path goes on to a surface or to the sky is
- * a matter of chance there, and so is a share of FILM_COVERAGE. */
+/* Where a pixel saw a surface in a part of its samples only, its light is the mean over all of
+ * them, but its albedo and normal are those of the surface. A denoiser compares pixels by these, so
+ * it gets the light of that part alone: of what is visible (`of_part`), or back to the mean. Of
+ * gloss that is all: whether a path goes on to a surface or to the sky is a matter of chance there,
+ * and so is a share of FILM_COVERAGE. */
 static void scale_light(const struct film *film, bool of_part, float *light)
 {
     const float *visible = film->planes[FILM_VISIBLE];
@@ -76,7 +77,8 @@ static void scale_light(const struct film *film, bool of_part, float *light)
     }
 }
 
-/* The same for all that the denoiser is given; `estimate`, which it makes, is in the units of the light. */
+/* The same for all that the denoiser is given; `estimate`, which it makes, is in the units of the
+ * light. */
 static void scale_all(const struct film *film, bool of_part, struct rgb_planes light,
                       const struct halves *halves, float *estimate)
 {
@@ -154,7 +156,8 @@ _Static_assert(MOST_PARTS <= PS_DENOISER_IMAGES, "all parts at once");
 /* A denoiser weighs pixels once for all images that it has at a time, and needs room for all. */
 #define MOST_ROOM 0x1p29 /* bytes that it may cost */
 
-/* Of so many parts, how many at a time: one, where memory is short. The picture does not depend on it. */
+/* Of so many parts, how many at a time: one, where memory is short. The picture does not depend on
+ * it. */
 static size_t parts_at_once(const struct render *render, size_t count)
 {
     const ps_denoiser_vtable *table = &strategy_in(render, PS_DENOISER)->type->table.denoiser;
@@ -228,8 +231,8 @@ static ps_result denoise_some(struct render *render, struct part *parts, size_t 
     return result;
 }
 
-/* Of the direct light, what surfaces reflect, where the film has it apart. Noise of broad lights would hide the edges of
- * hard shadows, so light that casts them is smoothed by itself. */
+/* Of the direct light, what surfaces reflect, where the film has it apart. Noise of broad lights
+ * would hide the edges of hard shadows, so light that casts them is smoothed by itself. */
 static size_t add_direct_parts(const struct render *render, struct part *parts, size_t count)
 {
     static const int firsts[] = {FILM_REFLECTED_R, FILM_HARD_R};

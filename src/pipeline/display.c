@@ -1,8 +1,9 @@
 /* display.c: what a display shows of a picture, as the layer `display`: exposure, bloom, tone map.
  *
- * Radiance is multiplied by 2 to the power of two numbers of stops: that of the image (or --exposure), and that of the
- * tone map, which may follow from the picture (image/exposure.h). So the first one corrects what the second finds. The
- * layers of radiance stay as they are. Values are linear, 0..1: the sRGB transfer function belongs to files of bytes.
+ * Radiance is multiplied by 2 to the power of two numbers of stops: that of the image (or
+ * --exposure), and that of the tone map, which may follow from the picture (image/exposure.h). So
+ * the first one corrects what the second finds. The layers of radiance stay as they are. Values are
+ * linear, 0..1: the sRGB transfer function belongs to files of bytes.
  */
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -27,7 +28,8 @@ ps_result display_add(struct image *image, struct error *error)
     return PS_OK;
 }
 
-/* --- exposure ----------------------------------------------------------------------------------- */
+/* --- exposure
+ * ----------------------------------------------------------------------------------- */
 
 static double stops_of(const struct render *render, const float *const light[3], size_t pixels)
 {
@@ -63,7 +65,8 @@ static void expose(const struct render *render, const float *const light[3],
     parallel_for(render->settings->workers, view->height, expose_row, &exposing);
 }
 
-/* --- bloom and tone map ------------------------------------------------------------------------- */
+/* --- bloom and tone map
+ * ------------------------------------------------------------------------- */
 
 static ps_result run_stage(struct render *render, ps_kind kind, const ps_display_view *view,
                            uint64_t *refused, struct error *error)

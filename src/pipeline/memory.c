@@ -1,9 +1,10 @@
 /* memory.c: whether a picture of some size can be rendered here at all.
  *
  * A system that lends more memory than it has lets a render of a mistyped size begin and kills it
- * later, with others. So what grows with the picture is compared with the machine's memory beforehand: once before the
- * scene is loaded, by what any scene needs, and once when it is there, with all of its planes and what the process has
- * by then. What else the system runs is not known, and not asked for.
+ * later, with others. So what grows with the picture is compared with the machine's memory
+ * beforehand: once before the scene is loaded, by what any scene needs, and once when it is there,
+ * with all of its planes and what the process has by then. What else the system runs is not known,
+ * and not asked for.
  */
 #include "base/machine.h"
 #include "base/text.h"
@@ -40,14 +41,15 @@ static size_t film_pixel(const struct planes *planes)
     return count * sizeof(float) + ids + sums;
 }
 
-/* What a file of the film is made of: its planes in two floats each, three for viewers, four of ids. */
+/* What a file of the film is made of: its planes in two floats each, three for viewers, four of
+ * ids. */
 static size_t file_pixel(const struct planes *planes)
 {
     return (2 * (count_film(planes) + 1) + 7) * sizeof(float);
 }
 
-/* The picture, less the planes that it takes over from the film, and what makes it: halves of the light, and what the
- * denoiser asks for. */
+/* The picture, less the planes that it takes over from the film, and what makes it: halves of the
+ * light, and what the denoiser asks for. */
 static size_t picture_pixel(const struct render_settings *settings, const struct planes *planes)
 {
     const ps_denoiser_vtable *denoiser = &settings->strategies[PS_DENOISER].type->table.denoiser;
@@ -75,8 +77,8 @@ static double gbuffer_part(const struct gbuffer *layout, const struct planes *pl
     return (double)bytes + (planes->splats ? (double)gathered_light_bytes(layout) : 0);
 }
 
-/* G-buffer, film and sums last to the end. Beside them are, at different times, what the estimator needs in a pass, the
- * picture with its denoiser, and the film's file. */
+/* G-buffer, film and sums last to the end. Beside them are, at different times, what the estimator
+ * needs in a pass, the picture with its denoiser, and the film's file. */
 static double memory_of_picture(const struct render_settings *settings, const struct planes *planes,
                                 size_t width, size_t height, bool keeps_film)
 {

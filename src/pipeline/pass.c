@@ -1,4 +1,5 @@
-/* pass.c: one pass: G-buffer, direct light, the estimator's indirect light, and what becomes of them in the film. */
+/* pass.c: one pass: G-buffer, direct light, the estimator's indirect light, and what becomes of
+ * them in the film. */
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sample.h"
@@ -112,7 +113,8 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     film_add_tile(&work->render->film, &work->render->gbuffer, (uint32_t)index, NULL);
 }
 
-/* Adds a tile's pixels off the edges as they are; those at edges share what is left when fireflies are spread. */
+/* Adds a tile's pixels off the edges as they are; those at edges share what is left when fireflies
+ * are spread. */
 static void add_off_edges(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
@@ -301,8 +303,8 @@ static ps_result end_pass(struct tile_work *work, struct error *error)
     return result == PS_OK ? PS_CANCELLED : result;
 }
 
-/* Cancelled where nothing else is there: what there is of the pass makes a picture, its direct light alone or all but
- * smooth edges. */
+/* Cancelled where nothing else is there: what there is of the pass makes a picture, its direct
+ * light alone or all but smooth edges. */
 static void keep_unfinished(struct render *render, struct tile_work *work, bool estimated)
 {
     if (!estimated)

@@ -7,9 +7,9 @@ static bool wants_surfaces(const struct render_settings *settings, bool keeps_fi
            settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
 }
 
-/* Where a denoiser may smooth the direct light: it has noise, which halves of it tell, and nothing else smooths it.
- * Halves of each pass are best, since its samples look at the same places; but one shadow ray, or one sample of
- * gloss, has no halves, and then passes are. */
+/* Where a denoiser may smooth the direct light: it has noise, which halves of it tell, and nothing
+ * else smooths it. Halves of each pass are best, since its samples look at the same places; but one
+ * shadow ray, or one sample of gloss, has no halves, and then passes are. */
 static void add_reflected(struct planes *planes, const struct render_settings *settings,
                           const struct scene *scene)
 {

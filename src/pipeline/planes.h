@@ -1,7 +1,9 @@
-/* planes.h: what a render keeps of each pixel, in the G-buffer, the film and the sums of its passes.
+/* planes.h: what a render keeps of each pixel, in the G-buffer, the film and the sums of its
+ * passes.
  *
- * What nobody looks at costs memory, and time in each pass; so it depends on the strategies, on the scene and on who
- * wants the result. The driver makes what this says (render_create.c), and knows what that takes beforehand (memory.c).
+ * What nobody looks at costs memory, and time in each pass; so it depends on the strategies, on the
+ * scene and on who wants the result. The driver makes what this says (render_create.c), and knows
+ * what that takes beforehand (memory.c).
  */
 #ifndef PIPELINE_PLANES_H
 #define PIPELINE_PLANES_H
@@ -24,13 +26,13 @@ struct planes {
     bool radiance;    /* G-buffer: indirect radiance */
     bool ids;         /* film: objects and materials */
     bool odd;         /* film: indirect light of the odd passes */
-    /* Film: direct light that is reflected, with that of hard shadows apart, and its halves: of each pass, or else of the
-     * odd passes. */
+    /* Film: direct light that is reflected, with that of hard shadows apart, and its halves: of
+     * each pass, or else of the odd passes. */
     bool reflected, reflected_hard, halves_of_pass;
 };
 
-/* `sums`: the render sums passes; `keeps_film`: for the caller, whose film has what any denoiser asks for. Without a scene
- * only what any scene needs. */
+/* `sums`: the render sums passes; `keeps_film`: for the caller, whose film has what any denoiser
+ * asks for. Without a scene only what any scene needs. */
 struct planes planes_wanted(const struct render_settings *settings, const struct scene *scene,
                             bool sums, bool keeps_film);
 

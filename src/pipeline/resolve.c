@@ -112,7 +112,8 @@ static ps_result normalize_film(struct render *render, const struct film *film,
     return render_judge(render, PS_NORMALIZATION, result, error);
 }
 
-/* Where nothing has weight, anything may stand, and the ambient colour will; so only what has counts. */
+/* Where nothing has weight, anything may stand, and the ambient colour will; so only what has
+ * counts. */
 static void mend_normalized(struct render *render, struct rgb_planes out)
 {
     const float *weight = render->film.planes[FILM_WEIGHT];
@@ -133,8 +134,8 @@ static ps_result normalize(struct render *render, struct rgb_planes out, struct 
     return result;
 }
 
-/* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). Light from nearby has no
- * weight (gathered_light.h), so what came out counts, too. */
+/* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). Light
+ * from nearby has no weight (gathered_light.h), so what came out counts, too. */
 static void fill_ambient(struct render *render, struct rgb_planes out)
 {
     const struct film *film = &render->film;
@@ -206,7 +207,8 @@ static ps_result make_halves(struct render *render, struct halves *halves, struc
     return result;
 }
 
-/* Room for the denoiser's estimate of its error, where it makes one and somebody wants it; NULL elsewhere. */
+/* Room for the denoiser's estimate of its error, where it makes one and somebody wants it; NULL
+ * elsewhere. */
 static ps_result create_estimate(const struct render *render, float **estimate, struct error *error)
 {
     const struct render_settings *settings = render->settings;

@@ -16,8 +16,8 @@
 /* How many times as long the way along the surface may be as that across a bundle. */
 #define MOST_SLOPE 8.0f
 
-/* Of the rays along a surface, so many are stopped near the ground where it is hollow, and get half as far
- * again or more where they run higher. */
+/* Of the rays along a surface, so many are stopped near the ground where it is hollow, and get half
+ * as far again or more where they run higher. */
 #define MOST_AZIMUTHS 12
 #define HIGHER_LENGTH 1.5f
 
@@ -38,7 +38,8 @@ struct star {
     float distances[AZIMUTHS];                   /* INFINITY: nothing is met */
 };
 
-/* The same across a splat's bundle: where they run, and how far in parts of the way to look; 1: all of it. */
+/* The same across a splat's bundle: where they run, and how far in parts of the way to look; 1: all
+ * of it. */
 struct free_way {
     float cosine[AZIMUTHS], sine[AZIMUTHS];
     float length[AZIMUTHS];
@@ -49,7 +50,8 @@ struct border {
     float a, b;
 };
 
-/* How far to look for the walls of a splat: across a bundle that leaves at a slope the way is shorter. */
+/* How far to look for the walls of a splat: across a bundle that leaves at a slope the way is
+ * shorter. */
 static float length_for(const ps_photon *photon, const struct splat *splat)
 {
     return LOOK * splat->bundle.radius * ps_min(1.0f / footprint_cosine(photon), MOST_SLOPE);
@@ -126,8 +128,9 @@ static struct border through(const struct free_way *way, int i)
     };
 }
 
-/* Whether the rays that a wall there would stop were stopped: a pole or a table's leg is none. Far out,
- * where a wall stops one ray or two, a pole counts as one; there it makes up for next to nothing. */
+/* Whether the rays that a wall there would stop were stopped: a pole or a table's leg is none. Far
+ * out, where a wall stops one ray or two, a pole counts as one; there it makes up for next to
+ * nothing. */
 static bool stands(const struct border *border, const struct free_way *way)
 {
     int expected = 0, met = 0;
@@ -185,8 +188,8 @@ static void find(const struct free_way *way, struct splat *splat)
     }
 }
 
-/* The way around a photon, and where its bundle starts. A hollow surface rises all around: its own walls
- * are no others, and its bundle starts higher. */
+/* The way around a photon, and where its bundle starts. A hollow surface rises all around: its own
+ * walls are no others, and its bundle starts higher. */
 static struct free_way look(const ps_host *host, float surface_offset, const ps_photon *photon,
                             const struct star *star, struct splat *splat)
 {

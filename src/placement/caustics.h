@@ -1,9 +1,10 @@
 /* caustics.h: how dense the photons of caustics lie, by a few of them.
  *
- * What mirrors and glass bundle is far denser in some places than in others, so one radius for all blurs the light of a focus
- * over what lies around it. The radius at a place is that of a disc which `CAUSTIC_PHOTONS` photons share, by the k-th
- * nearest of a pass's first landings (Loftsgaarden and Quesenberry 1965; as the k nearest photons of Jensen 1996, but for
- * each photon instead of each pixel: Silverman 1986, section 5.3).
+ * What mirrors and glass bundle is far denser in some places than in others, so one radius for all
+ * blurs the light of a focus over what lies around it. The radius at a place is that of a disc
+ * which `CAUSTIC_PHOTONS` photons share, by the k-th nearest of a pass's first landings
+ * (Loftsgaarden and Quesenberry 1965; as the k nearest photons of Jensen 1996, but for each photon
+ * instead of each pixel: Silverman 1986, section 5.3).
  */
 #ifndef PLACEMENT_CAUSTICS_H
 #define PLACEMENT_CAUSTICS_H

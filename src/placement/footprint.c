@@ -27,10 +27,10 @@ static float slope_of(float cosine)
     return ps_min(sqrtf(ps_max(1.0f - c * c, 0.0f)) / c, FOOTPRINT_STEEPEST);
 }
 
-/* A full bundle starts this far above the photon's tangent plane, as a fraction of the radius: surfaces
- * are not quite flat, and hollow ones rise above their tangent plane, by R^2 / 2r at the bundle's edge, and
- * must not block their own light. The bundle passes what lies lower, which makes a furnished room too bright
- * where all surfaces are taken for hollow. */
+/* A full bundle starts this far above the photon's tangent plane, as a fraction of the radius:
+ * surfaces are not quite flat, and hollow ones rise above their tangent plane, by R^2 / 2r at the
+ * bundle's edge, and must not block their own light. The bundle passes what lies lower, which makes
+ * a furnished room too bright where all surfaces are taken for hollow. */
 #define CLEARANCE 0.03125f
 #define HOLLOW_CLEARANCE 0.125f
 
@@ -68,8 +68,8 @@ void footprint_stand_in(const ps_photon *photon, float distance, ps_hit *hit)
     hit->normal = (ps_vec3){0, 0, 0};
 }
 
-/* Around a bundle that starts at its photon. Pixels with narrow parts of its disc take it from below the
- * start plane (kernel.h), so the box begins at the photon's plane itself. */
+/* Around a bundle that starts at its photon. Pixels with narrow parts of its disc take it from
+ * below the start plane (kernel.h), so the box begins at the photon's plane itself. */
 static void place_full(const struct placement_scene *scene, const struct footprint_params *settings,
                        const ps_photon *photon, float distance, float largest, struct splat *splat)
 {
@@ -143,7 +143,8 @@ void footprint_set_bias(const struct footprint_params *settings, struct splat *s
     }
 }
 
-/* --- extent --------------------------------------------------------------------------------------- */
+/* --- extent
+ * --------------------------------------------------------------------------------------- */
 
 #define RAYS 16
 
@@ -176,8 +177,8 @@ static void trace_disc(const struct placement *placement, const ps_photon *photo
     placement->host->intersect_packets(placement->host, packet, 1, 1);
 }
 
-/* How large the footprint must be for what the rays met: as far out as the outermost of them whose pixels would
- * take in the axis, and no smaller than `least`. */
+/* How large the footprint must be for what the rays met: as far out as the outermost of them whose
+ * pixels would take in the axis, and no smaller than `least`. */
 static float extent_of(const struct placement *placement, const ps_photon *photon,
                        const ps_ray_packet *packet, float largest, float least)
 {
@@ -193,7 +194,8 @@ static float extent_of(const struct placement *placement, const ps_photon *photo
     return least;
 }
 
-/* How far away along the axis the nearest thing lies that the rays met; INFINITY: they met nothing. */
+/* How far away along the axis the nearest thing lies that the rays met; INFINITY: they met
+ * nothing. */
 static float nearest_of(const ps_ray_packet *packet, const ps_photon *photon)
 {
     float nearest = INFINITY;

@@ -1,16 +1,18 @@
-/* gather_share.h: how much of the light from nearby splats give, and how much is left to gather rays
- * (step 6 of placement.h).
+/* gather_share.h: how much of the light from nearby splats give, and how much is left to gather
+ * rays (step 6 of placement.h).
  *
- * Splats blur light; rays that are shot from pixels find it as it is, with more noise, and only so far
- * (short_range/short_range_gather.h). At distance t from the photon's plane splats give the share
+ * Splats blur light; rays that are shot from pixels find it as it is, with more noise, and only so
+ * far (short_range/short_range_gather.h). At distance t from the photon's plane splats give the
+ * share
  *
  *     s^2 (3 - 2 s),   s = min(t / blend_distance, 1)
  *
- * and rays the rest, so that the sum is right wherever light is even. With one distance where the one stops
- * and the other begins, a lit surface that begins just past it (the top of a block, a pool of light on a
- * floor) lost what blur moved before it: nobody counted it. Changing from the one to the other by degrees, most of
- * that stays, and rays reach further for their noise. A straight line does as well, but for contacts, where
- * splats then keep more than twice as much of their blur.
+ * and rays the rest, so that the sum is right wherever light is even. With one distance where the
+ * one stops and the other begins, a lit surface that begins just past it (the top of a block, a
+ * pool of light on a floor) lost what blur moved before it: nobody counted it. Changing from the
+ * one to the other by degrees, most of that stays, and rays reach further for their noise. A
+ * straight line does as well, but for contacts, where splats then keep more than twice as much of
+ * their blur.
  */
 #ifndef PLACEMENT_GATHER_SHARE_H
 #define PLACEMENT_GATHER_SHARE_H

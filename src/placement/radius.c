@@ -3,27 +3,29 @@
 
 #include <psplat/math.h>
 
-/* The automatic radius for FEW_PATHS, as a fraction of the scene's radius, and at most. With more paths it shrinks
- * less, since short-range light stays as near as it is there: little is left of what splats would blur. */
+/* The automatic radius for FEW_PATHS, as a fraction of the scene's radius, and at most. With more
+ * paths it shrinks less, since short-range light stays as near as it is there: little is left of
+ * what splats would blur. */
 #define FEW_PATHS 100000
 #define BY_SCENE 0.138
 #define LARGEST_BY_SCENE 0.25
 #define POWER_OF_FEW (-0.25)
 #define POWER_OF_MANY (-0.2)
 
-/* The same as a fraction of the spread of the light, and how much of what the scene's radius gives is left
- * where light lands in a point. */
+/* The same as a fraction of the spread of the light, and how much of what the scene's radius gives
+ * is left where light lands in a point. */
 #define BY_SPREAD 0.5
 #define LEAST_BY_SPREAD 0.4
 
-/* How far gather rays reach, in radii of that many paths. Farther, they are noisier, and lose more where a pool of
- * light begins at less than that distance and ends beyond. */
+/* How far gather rays reach, in radii of that many paths. Farther, they are noisier, and lose more
+ * where a pool of light begins at less than that distance and ends beyond. */
 #define GATHER_RADII 2.5f
 
-/* A radius that follows the distance stops at this fraction of the largest. Without a floor, light that crosses a
- * corner from very near makes splats so small and bright that they dominate the error. What lights shine on has
- * the sharp edges of their shadows, which large splats blur; what other surfaces light has none. Where light from
- * close by is not splatted, these blur less, and the radius may stop at what it is at that distance. */
+/* A radius that follows the distance stops at this fraction of the largest. Without a floor, light
+ * that crosses a corner from very near makes splats so small and bright that they dominate the
+ * error. What lights shine on has the sharp edges of their shadows, which large splats blur; what
+ * other surfaces light has none. Where light from close by is not splatted, these blur less, and
+ * the radius may stop at what it is at that distance. */
 #define SMALLEST_LIT_BY_LIGHTS 0.3f
 #define SMALLEST_LIT_BY_SURFACES 0.6f
 
@@ -55,7 +57,8 @@ float radius_gather_distance(const struct placement_scene *scene,
     return radius_bounded(scene, (double)GATHER_RADII * larger * settings->radius.number);
 }
 
-/* All the way, where shadow rays would not find the light that it sends on: caustics, and what other surfaces lit. */
+/* All the way, where shadow rays would not find the light that it sends on: caustics, and what
+ * other surfaces lit. */
 float radius_blend_distance(const struct placement_scene *scene, const ps_photon *photon)
 {
     return photon->bounce == 1 && !photon->specular ? scene->gather_distance : 0.0f;

@@ -4,14 +4,15 @@
 
 #include "placement/placement.h"
 
-/* Of so many paths in a pass (from 0), in a scene of that radius whose light lands `light_spread` wide
- * (render/photons.h; 0: not known). */
+/* Of so many paths in a pass (from 0), in a scene of that radius whose light lands `light_spread`
+ * wide (render/photons.h; 0: not known). */
 float radius_automatic(float scene_radius, float light_spread, uint64_t paths, uint32_t pass);
 
 /* Within which gather rays find light, where the settings leave the radius open. */
 float radius_automatic_gather_distance(float scene_radius, float light_spread, uint64_t paths);
 
-/* The same by the settings; 0 where bundles do not start at their photons and follow the distance. */
+/* The same by the settings; 0 where bundles do not start at their photons and follow the
+ * distance. */
 float radius_gather_distance(const struct placement_scene *scene,
                              const struct footprint_params *settings, uint64_t paths);
 

@@ -38,8 +38,8 @@ static bool add_folder(struct loader *loader, const char *path, size_t length)
     return true;
 }
 
-/* A relative entry would take plugins, which are programs, from wherever psplat is started; and so does an
- * empty one, by the habit of $PATH. */
+/* A relative entry would take plugins, which are programs, from wherever psplat is started; and so
+ * does an empty one, by the habit of $PATH. */
 static ps_result refuse_entry(const char *entry, size_t length, struct error *error)
 {
     return error_set(

@@ -10,8 +10,8 @@ static bool reject(struct error *error, const char *why)
     return false;
 }
 
-/* What a struct ended with in the first version of the interface that has it: it may have grown since, and a module's
- * may not be shorter. */
+/* What a struct ended with in the first version of the interface that has it: it may have grown
+ * since, and a module's may not be shorter. */
 #define FIRST_SIZE(type, last) (offsetof(type, last) + sizeof(((type *)NULL)->last))
 
 /* What a kind's table has to hold: so many bytes, and these functions. */

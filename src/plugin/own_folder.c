@@ -1,7 +1,7 @@
 /* own_folder.c: the file of this code, by the system's list of what is mapped where.
  *
- * dladdr() has the name that a library was loaded by, which may be relative to a folder that was left since, and of a
- * program whatever it was called by; /proc/self/maps has paths.
+ * dladdr() has the name that a library was loaded by, which may be relative to a folder that was
+ * left since, and of a program whatever it was called by; /proc/self/maps has paths.
  */
 #include "plugin/own_folder.h"
 
@@ -15,7 +15,8 @@
 /* Something that lies in this file. */
 static const char here[] = "here";
 
-/* The file in a line "FROM-TO MODE OFFSET DEVICE INODE PATH" that has the address; NULL: it is not there. */
+/* The file in a line "FROM-TO MODE OFFSET DEVICE INODE PATH" that has the address; NULL: it is not
+ * there. */
 static const char *file_in_line(char *line, uintptr_t address)
 {
     uintptr_t from, to;

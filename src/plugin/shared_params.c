@@ -30,7 +30,8 @@ static const char *const representatives[] = {"random", "nearest_mean", "dominan
             boundary_correction_default, 0, 1, PS_PARAM_EXPERT, NULL, "",                          \
             "divides a full bundle's kernel by the part that walls beside the photon leave of it")
 
-/* Without a test of what is in the way, light leaks through a whole bundle: a footprint is kept short. */
+/* Without a test of what is in the way, light leaks through a whole bundle: a footprint is kept
+ * short. */
 static const ps_param short_footprint[] = {FOOTPRINT_ROWS("auto", "no")};
 
 /* The last two are of depth maps. */

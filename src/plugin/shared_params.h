@@ -1,7 +1,8 @@
 /* shared_params.h: the parameters that all strategies of a kind share, which are psplat's own.
  *
- * A user sets them like any other, as in `visibility=shadowmap:radius=20`; they lie behind the plugin's state,
- * which does not know them. So a new one is there for every plugin, whenever that was built.
+ * A user sets them like any other, as in `visibility=shadowmap:radius=20`; they lie behind the
+ * plugin's state, which does not know them. So a new one is there for every plugin, whenever that
+ * was built.
  */
 #ifndef PLUGIN_SHARED_PARAMS_H
 #define PLUGIN_SHARED_PARAMS_H
@@ -9,8 +10,8 @@
 #include "base/param.h"
 #include <psplat/plugin.h>
 
-/* Of visibilities: the footprints of splats (placement/footprint.h), and depth maps where there are any. Scene
- * units. */
+/* Of visibilities: the footprints of splats (placement/footprint.h), and depth maps where there are
+ * any. Scene units. */
 struct footprint_params {
     ps_number_or_choice radius;
     double bandwidth_scale;
@@ -37,8 +38,8 @@ struct tonemap_params {
 
 enum representative { KEEP_RANDOM = 0, KEEP_NEAREST_MEAN = 1, KEEP_DOMINANT = 2 };
 
-/* What the kind shares, and the size of the struct that it fills; no rows where it shares nothing. `table`:
- * the strategy's, of that kind. */
+/* What the kind shares, and the size of the struct that it fills; no rows where it shares nothing.
+ * `table`: the strategy's, of that kind. */
 struct param_table shared_params(ps_kind kind, const void *table, size_t *struct_size);
 
 #endif

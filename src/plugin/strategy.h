@@ -16,12 +16,13 @@ struct strategy {
 /* What the strategy's kind shares: a footprint_params or a merge_params, where it has any. */
 const void *strategy_shared(const struct strategy *strategy);
 
-/* Loads the strategy of that name and gives it a state with default parameters (see param_set_defaults). Set others
- * with param_set, then start it. */
+/* Loads the strategy of that name and gives it a state with default parameters (see
+ * param_set_defaults). Set others with param_set, then start it. */
 ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name, double effort,
                           struct strategy *strategy, struct error *error);
 
-/* Runs the plugin's init with the host that it keeps; what it said of a failure, host->fail was told. */
+/* Runs the plugin's init with the host that it keeps; what it said of a failure, host->fail was
+ * told. */
 ps_result strategy_start(struct strategy *strategy, const ps_host *host);
 
 /* Runs the plugin's destroy if it was started; the host is not used after that. */

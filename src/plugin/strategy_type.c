@@ -26,8 +26,8 @@ static void copy_rows(const ps_descriptor *descriptor, const struct param_table 
               descriptor->param_size);
 }
 
-/* That no two parameters have the same name, which module_check has seen of the module's own, and that defaults
- * are values. */
+/* That no two parameters have the same name, which module_check has seen of the module's own, and
+ * that defaults are values. */
 static ps_result check_rows(const struct strategy_type *type, struct error *error)
 {
     struct param_table table = strategy_type_params(type);

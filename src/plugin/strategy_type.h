@@ -1,7 +1,8 @@
 /* strategy_type.h: a strategy as its module describes it, in structs of this psplat.
  *
- * A module may have been built with older headers, whose structs are shorter. So its descriptor and table are
- * copied into today's, where what it does not know is 0, and the core looks at the copies alone.
+ * A module may have been built with older headers, whose structs are shorter. So its descriptor and
+ * table are copied into today's, where what it does not know is 0, and the core looks at the copies
+ * alone.
  */
 #ifndef PLUGIN_STRATEGY_TYPE_H
 #define PLUGIN_STRATEGY_TYPE_H
@@ -38,8 +39,9 @@ struct strategy_type {
 /* Whether a module may be used; on failure the message says what is wrong with it. */
 bool module_check(const ps_module *module, struct error *error);
 
-/* Takes over one of the descriptors of a module that was checked. PS_ERROR_INVALID: a default is no value of its
- * parameter, or a parameter has the name of one that the kind shares; PS_ERROR_MEMORY. */
+/* Takes over one of the descriptors of a module that was checked. PS_ERROR_INVALID: a default is
+ * no value of its parameter, or a parameter has the name of one that the kind shares;
+ * PS_ERROR_MEMORY. */
 ps_result strategy_type_create(const ps_descriptor *descriptor, const char *file,
                                struct strategy_type **type, struct error *error);
 void strategy_type_destroy(struct strategy_type *type);

@@ -1,17 +1,20 @@
 /* csg.c: intersections, differences and clipped_by as meshes; see write.h.
  *
- * The surface of a solid by boolean operations is made of the surfaces of its parts, each as far as it lies inside
- * (union: outside) of the other parts (A. Requicha and H. Voelcker, "Boolean operations in solid modeling", 1985). The
- * parts that cut are convex, as spheres, boxes, cylinders, cones and planes are: their faces' planes cut the polygons
- * of the others. A part that is not convex is cut, but cuts nothing, with a warning; the face of a plane that such a part
- * ought to bound is left out. No library does that in plain C; the solids of scenes by hand are small.
+ * The surface of a solid by boolean operations is made of the surfaces of its parts, each as far as
+ * it lies inside (union: outside) of the other parts (A. Requicha and H. Voelcker, "Boolean
+ * operations in solid modeling", 1985). The parts that cut are convex, as spheres, boxes,
+ * cylinders, cones and planes are: their faces' planes cut the polygons of the others. A part that
+ * is not convex is cut, but cuts nothing, with a warning; the face of a plane that such a part
+ * ought to bound is left out. No library does that in plain C; the solids of scenes by hand are
+ * small.
  */
 #include "pov/csg.h"
 
 #define MOST_STEPS_OF_SOLID ((size_t)2000000000) /* planes times corners */
 #define TOLERANCE 1e-9                           /* of the solid's size */
 
-/* --- cutting -------------------------------------------------------------------------------------- */
+/* --- cutting
+ * -------------------------------------------------------------------------------------- */
 
 static void append(struct csg_work *work, const struct csg_polygons *from, struct csg_polygons *to)
 {
@@ -70,7 +73,8 @@ static void add_triangles(struct csg_work *work, const struct csg_node *leaf,
     }
 }
 
-/* --- what is left ----------------------------------------------------------------------------------- */
+/* --- what is left
+ * ----------------------------------------------------------------------------------- */
 
 /* The way from the root to a node. */
 struct path {
@@ -79,7 +83,8 @@ struct path {
     size_t child; /* which child of the one above it is */
 };
 
-/* The objects on the way, but for the root's: its copies differ. A node that clips is of the same object as that below. */
+/* The objects on the way, but for the root's: its copies differ. A node that clips is of the same
+ * object as that below. */
 static void find_way(struct pov_reader *reader, const struct path *path, struct pov_piece *piece)
 {
     const struct pov_object **way = NULL;
@@ -152,7 +157,8 @@ static bool is_bounded_in_vain(const struct path *path)
     return bounded;
 }
 
-/* Whether polygons of a plane reach a corner of the mesh that stands for it, which lies far away. */
+/* Whether polygons of a plane reach a corner of the mesh that stands for it, which lies far
+ * away. */
 static bool reach_end(const struct csg_polygons *polygons, const struct mesh *plane)
 {
     bool reach = false;

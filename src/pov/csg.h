@@ -1,4 +1,5 @@
-/* csg.h: a solid by boolean operations as the tree of its parts, while its surface is made (csg_tree.c, csg.c).
+/* csg.h: a solid by boolean operations as the tree of its parts, while its surface is made
+ * (csg_tree.c, csg.c).
  *
  * In the space of the solid's object: before that one's own transforms, which its copies differ in.
  */

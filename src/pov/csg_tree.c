@@ -38,7 +38,8 @@ void csg_stop(struct csg_work *work)
     work->failed = true;
 }
 
-/* --- leaves --------------------------------------------------------------------------------------- */
+/* --- leaves
+ * --------------------------------------------------------------------------------------- */
 
 static bool is_same_plane(const struct csg_plane *a, const struct csg_plane *b, double size)
 {
@@ -170,7 +171,8 @@ static void make_leaf(struct csg_work *work, struct csg_node *node)
             pov_text(writer->reader, object->token.word));
 }
 
-/* --- the tree ------------------------------------------------------------------------------------- */
+/* --- the tree
+ * ------------------------------------------------------------------------------------- */
 
 static struct csg_node *build(struct csg_work *work, const struct pov_object *object,
                               const struct transform *place, int depth);

@@ -1,7 +1,7 @@
 /* directive.c: executes directives (reference of POV-Ray 3.7, "Language Directives"); see reader.h.
  *
- * A branch that is not taken is skipped token by token, up to the #else or #end that belongs to it. A loop goes back
- * in the list of tokens.
+ * A branch that is not taken is skipped token by token, up to the #else or #end that belongs to it.
+ * A loop goes back in the list of tokens.
  */
 #include "pov/expression.h"
 #include "pov/object.h"
@@ -14,7 +14,8 @@ static struct pov_frame *top(struct pov_reader *reader)
     return &reader->frames[reader->frame_count - 1];
 }
 
-/* --- skipping ----------------------------------------------------------------------------------- */
+/* --- skipping
+ * ----------------------------------------------------------------------------------- */
 
 static bool opens_block(uint32_t word)
 {
@@ -27,8 +28,8 @@ static bool is_branch(uint32_t word)
     return word == POV_else || word == POV_elseif || word == POV_case || word == POV_range;
 }
 
-/* Skips to the #end that closes `levels` blocks, or, where that is asked for, to a branch of the innermost; returns
- * that directive. POV_END: reported. */
+/* Skips to the #end that closes `levels` blocks, or, where that is asked for, to a branch of the
+ * innermost; returns that directive. POV_END: reported. */
 static struct pov_token skip(struct pov_reader *reader, const struct pov_token *from, size_t levels,
                              bool to_branch)
 {
@@ -66,7 +67,8 @@ static void push_block(struct pov_reader *reader, const struct pov_token *token,
     reader->blocks[reader->block_count++] = block;
 }
 
-/* --- conditions --------------------------------------------------------------------------------- */
+/* --- conditions
+ * --------------------------------------------------------------------------------- */
 
 /* "(NAME)", also of an element. */
 static bool read_is_defined(struct pov_reader *reader)
@@ -148,7 +150,8 @@ static void meet_branch(struct pov_reader *reader, const struct pov_token *token
     }
 }
 
-/* --- loops -------------------------------------------------------------------------------------- */
+/* --- loops
+ * -------------------------------------------------------------------------------------- */
 
 static void begin_while(struct pov_reader *reader, const struct pov_token *token)
 {
@@ -240,7 +243,8 @@ static void leave_block(struct pov_reader *reader, const struct pov_token *token
     pov_error(reader, token, "#break outside of #while, #for and #switch");
 }
 
-/* --- names -------------------------------------------------------------------------------------- */
+/* --- names
+ * -------------------------------------------------------------------------------------- */
 
 static struct pov_value read_declared_value(struct pov_reader *reader)
 {
@@ -314,7 +318,8 @@ static void undefine(struct pov_reader *reader, const struct pov_token *token)
         pov_unexpected(reader, &name, "a name");
 }
 
-/* --- the rest ----------------------------------------------------------------------------------- */
+/* --- the rest
+ * ----------------------------------------------------------------------------------- */
 
 static void include(struct pov_reader *reader, const struct pov_token *token)
 {

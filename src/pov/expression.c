@@ -11,7 +11,8 @@ static struct pov_number of_float(double value)
     return (struct pov_number){{value}, 1, false};
 }
 
-/* --- terms -------------------------------------------------------------------------------------- */
+/* --- terms
+ * -------------------------------------------------------------------------------------- */
 
 /* To at least as many terms as the other has. */
 static void promote(struct pov_number *n, const struct pov_number *other)
@@ -51,7 +52,8 @@ static struct pov_number combine(struct pov_reader *reader, const struct pov_tok
     return a;
 }
 
-/* --- vectors and colours -------------------------------------------------------------------------- */
+/* --- vectors and colours
+ * -------------------------------------------------------------------------- */
 
 /* Behind "<". Commas may be missing. */
 static struct pov_number read_vector_literal(struct pov_reader *reader)
@@ -148,7 +150,8 @@ static struct pov_number read_color(struct pov_reader *reader)
     return color;
 }
 
-/* --- factors -------------------------------------------------------------------------------------- */
+/* --- factors
+ * -------------------------------------------------------------------------------------- */
 
 static bool is_axis(uint32_t word, struct pov_number *axis)
 {
@@ -377,7 +380,8 @@ struct pov_number pov_read_number(struct pov_reader *reader)
     }
 }
 
-/* --- comparisons and logic ------------------------------------------------------------------------ */
+/* --- comparisons and logic
+ * ------------------------------------------------------------------------ */
 
 /* POV-Ray's floats are the same within that. */
 #define SAME 1e-10
@@ -473,7 +477,8 @@ struct pov_number pov_read_condition(struct pov_reader *reader)
     return holds ? yes : no;
 }
 
-/* --- what else is read by them ---------------------------------------------------------------------- */
+/* --- what else is read by them
+ * ---------------------------------------------------------------------- */
 
 struct pov_number pov_read_color(struct pov_reader *reader)
 {

@@ -1,7 +1,8 @@
 /* expression.h: numbers, vectors, colours and texts (reference of POV-Ray 3.7, "Language Basics").
  *
- * A float that meets a vector counts for each of its terms, and a short vector gets zeros. Comparisons and logic stand
- * in parentheses, or where a whole value is read, since < also opens vectors. Errors are reported; the result is then 0.
+ * A float that meets a vector counts for each of its terms, and a short vector gets zeros.
+ * Comparisons and logic stand in parentheses, or where a whole value is read, since < also opens
+ * vectors. Errors are reported; the result is then 0.
  */
 #ifndef POV_EXPRESSION_H
 #define POV_EXPRESSION_H
@@ -29,13 +30,14 @@ double pov_read_optional(struct pov_reader *reader, double otherwise);
 /* A comma, which may be missing in many places. */
 void pov_skip_comma(struct pov_reader *reader);
 
-/* A function of POV-Ray's behind its name: sin(...), vcross(...) (function.c); false: it is none. */
+/* A function of POV-Ray's behind its name: sin(...), vcross(...) (function.c); false: it is
+ * none. */
 bool pov_read_function(struct pov_reader *reader, const struct pov_token *token,
                        struct pov_number *result);
 bool pov_is_function(uint32_t word);
 
-/* What a name stands for, with "[i]" where that is an array of what is no number, text or array. NULL: nothing, or
- * reported. */
+/* What a name stands for, with "[i]" where that is an array of what is no number, text or array.
+ * NULL: nothing, or reported. */
 struct pov_value *pov_named(struct pov_reader *reader, const struct pov_token *token);
 /* Any value that can be declared or be an argument (rvalue.c); POV_VALUE_NONE: reported. */
 struct pov_value pov_read_value(struct pov_reader *reader);

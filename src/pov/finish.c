@@ -1,5 +1,5 @@
-/* finish.c: how surfaces answer to light, and what is inside; see object.h and the reference of POV-Ray 3.7,
- * "Finish", "Interior". */
+/* finish.c: how surfaces answer to light, and what is inside; see object.h and the reference of
+ * POV-Ray 3.7, "Finish", "Interior". */
 #include "pov/expression.h"
 #include "pov/object.h"
 

@@ -9,7 +9,8 @@
 
 #define BYTES_OF_WORD 64 /* a new one, with its place in the index */
 
-/* --- files -------------------------------------------------------------------------------------- */
+/* --- files
+ * -------------------------------------------------------------------------------------- */
 
 /* FOLDER/NAME, to be freed; NULL: out of memory. */
 static char *join(const char *folder, const char *name)
@@ -172,7 +173,8 @@ void pov_release(struct pov_reader *reader)
     scene_text_release(&reader->scene);
 }
 
-/* --- levels and names ----------------------------------------------------------------------------- */
+/* --- levels and names
+ * ----------------------------------------------------------------------------- */
 
 bool pov_push_frame(struct pov_reader *reader, const struct pov_token *token,
                     const struct pov_tokens *tokens, size_t at, bool is_file)

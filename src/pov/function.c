@@ -1,5 +1,5 @@
-/* function.c: POV-Ray's functions that make numbers; see expression.h and the reference of POV-Ray 3.7, "Float
- * Expressions" and "Vector Expressions". */
+/* function.c: POV-Ray's functions that make numbers; see expression.h and the reference of POV-Ray
+ * 3.7, "Float Expressions" and "Vector Expressions". */
 #include "pov/expression.h"
 
 #include "pov/object.h"
@@ -10,7 +10,8 @@
 
 #define PI 3.14159265358979323846
 
-/* --- of floats ------------------------------------------------------------------------------------ */
+/* --- of floats
+ * ------------------------------------------------------------------------------------ */
 
 static double degrees_of(double x)
 {
@@ -73,7 +74,8 @@ static bool read_of_floats(struct pov_reader *reader, const struct pov_token *to
     return false;
 }
 
-/* --- of vectors ----------------------------------------------------------------------------------- */
+/* --- of vectors
+ * ----------------------------------------------------------------------------------- */
 
 /* vdot(a, b) and its like. */
 static struct pov_value of_vectors(struct pov_reader *reader, uint32_t word)
@@ -111,7 +113,8 @@ static struct pov_value of_vectors(struct pov_reader *reader, uint32_t word)
     }
 }
 
-/* --- others --------------------------------------------------------------------------------------- */
+/* --- others
+ * --------------------------------------------------------------------------------------- */
 
 static double read_extreme(struct pov_reader *reader, bool largest)
 {

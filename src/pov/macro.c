@@ -1,7 +1,8 @@
-/* macro.c: macros and functions (reference of POV-Ray 3.7, "User Defined Macros", "User-Defined Functions"); see
- * reader.h.
+/* macro.c: macros and functions (reference of POV-Ray 3.7, "User Defined Macros", "User-Defined
+ * Functions"); see reader.h.
  *
- * A macro's body is read where it is called. So is a function's: its numbers are computed from the tokens each time.
+ * A macro's body is read where it is called. So is a function's: its numbers are computed from the
+ * tokens each time.
  */
 #include "pov/expression.h"
 
@@ -83,7 +84,8 @@ void pov_define_macro(struct pov_reader *reader, const struct pov_token *token)
         *place = (struct pov_value){.kind = POV_VALUE_MACRO, .macro = kept};
 }
 
-/* --- arguments ------------------------------------------------------------------------------------ */
+/* --- arguments
+ * ------------------------------------------------------------------------------------ */
 
 struct argument {
     struct pov_value value, *shared; /* shared: of a name that is the whole argument */
@@ -155,7 +157,8 @@ void pov_call_macro(struct pov_reader *reader, const struct pov_token *token,
     pov_leave(reader);
 }
 
-/* --- functions ------------------------------------------------------------------------------------ */
+/* --- functions
+ * ------------------------------------------------------------------------------------ */
 
 struct pov_value pov_define_function(struct pov_reader *reader)
 {

@@ -1,4 +1,5 @@
-/* mesh.c: reads triangles and meshes of them; see object.h and the reference of POV-Ray 3.7, "Mesh". */
+/* mesh.c: reads triangles and meshes of them; see object.h and the reference of POV-Ray 3.7,
+ * "Mesh". */
 #include "pov/expression.h"
 #include "pov/object.h"
 #include "pov/surface.h"
@@ -7,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- single triangles ------------------------------------------------------------------------------- */
+/* --- single triangles
+ * ------------------------------------------------------------------------------- */
 
 static void read_uv(struct pov_reader *reader, double uv[3][2])
 {
@@ -76,7 +78,8 @@ void pov_read_mesh(struct pov_reader *reader, struct pov_object *object)
     pov_surface_finish(&surface, object);
 }
 
-/* --- mesh2 ------------------------------------------------------------------------------------------ */
+/* --- mesh2
+ * ------------------------------------------------------------------------------------------ */
 
 struct lists {
     struct vector *points, *normals, *uv; /* in lists of their own */
@@ -85,7 +88,8 @@ struct lists {
     size_t face_count, normal_face_count, uv_face_count;
 };
 
-/* "{ n, <...>, ... }"; behind a face may stand up to three numbers of textures. NULL where there are none. */
+/* "{ n, <...>, ... }"; behind a face may stand up to three numbers of textures. NULL where there
+ * are none. */
 static struct vector *read_vectors(struct pov_reader *reader, bool are_faces, size_t *count)
 {
     struct vector *list = NULL;

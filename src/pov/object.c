@@ -17,7 +17,8 @@ static struct pov_object *new_object(struct pov_reader *reader, const struct pov
     return object;
 }
 
-/* --- shapes --------------------------------------------------------------------------------------- */
+/* --- shapes
+ * --------------------------------------------------------------------------------------- */
 
 static void read_sphere(struct pov_reader *reader, struct pov_object *object)
 {
@@ -111,7 +112,8 @@ static void read_height_field(struct pov_reader *reader, struct pov_object *obje
     pov_skip_comma(reader);
 }
 
-/* --- groups --------------------------------------------------------------------------------------- */
+/* --- groups
+ * --------------------------------------------------------------------------------------- */
 
 /* Lists in the arena double, so that their copies cost no more than twice. */
 static void add_child(struct pov_reader *reader, struct pov_object *group, struct pov_object *child)
@@ -169,7 +171,8 @@ static void read_named(struct pov_reader *reader, struct pov_object *object)
     }
 }
 
-/* --- all objects ---------------------------------------------------------------------------------- */
+/* --- all objects
+ * ---------------------------------------------------------------------------------- */
 
 static const struct {
     uint32_t word;
@@ -244,7 +247,8 @@ struct pov_object *pov_read_object(struct pov_reader *reader, const struct pov_t
     return reader->stopped ? NULL : object;
 }
 
-/* --- modifiers ------------------------------------------------------------------------------------ */
+/* --- modifiers
+ * ------------------------------------------------------------------------------------ */
 
 /* The object's texture, to be changed: its own, or the default. NULL: reported. */
 static struct pov_texture *own_texture(struct pov_reader *reader, struct pov_object *object)

@@ -1,7 +1,7 @@
 /* object.h: the scene as POV-Ray's words describe it: textures, objects, lights, camera.
  *
- * Coordinates are POV-Ray's, left-handed. All lies in the reader's arena and is shared between copies; who changes
- * something changes a copy.
+ * Coordinates are POV-Ray's, left-handed. All lies in the reader's arena and is shared between
+ * copies; who changes something changes a copy.
  */
 #ifndef POV_OBJECT_H
 #define POV_OBJECT_H
@@ -9,7 +9,8 @@
 #include "pov/reader.h"
 #include "writer/mesh.h"
 
-/* --- textures ----------------------------------------------------------------------------------- */
+/* --- textures
+ * ----------------------------------------------------------------------------------- */
 
 struct pov_map_entry {
     double at, color[POV_TERMS];
@@ -20,7 +21,8 @@ struct pov_color_map {
     struct pov_map_entry *entries; /* by `at` */
 };
 
-/* What was left out of something, said where that is used: files of textures define many that are not. */
+/* What was left out of something, said where that is used: files of textures define many that are
+ * not. */
 struct pov_note {
     const char *text; /* NULL: nothing */
     struct pov_token token;
@@ -102,7 +104,8 @@ void pov_color_at(const struct pov_color_map *map, double at, double color[POV_T
 void pov_pigment_mean(const struct pov_pigment *pigment, double color[POV_TERMS]);
 void pov_pigment_ends(const struct pov_pigment *pigment, double colors[2][POV_TERMS]);
 
-/* Blocks behind their first word and brace, up to the closing brace (pigment.c, finish.c, texture.c). */
+/* Blocks behind their first word and brace, up to the closing brace (pigment.c, finish.c,
+ * texture.c). */
 struct pov_pigment pov_read_pigment(struct pov_reader *reader, const struct pov_token *token,
                                     struct pov_pigment pigment);
 struct pov_finish pov_read_finish(struct pov_reader *reader, struct pov_finish finish);
@@ -118,18 +121,21 @@ bool pov_read_pattern_part(struct pov_reader *reader, const struct pov_token *to
 /* "image_map { png "FILE" ... }" behind its first word (image.c). */
 void pov_read_image(struct pov_reader *reader, struct pov_pigment *pigment);
 
-/* --- transforms --------------------------------------------------------------------------------- */
+/* --- transforms
+ * --------------------------------------------------------------------------------- */
 
 /* About x, then y, then z, by degrees; left-handed. */
 struct transform pov_rotation(struct vector degrees);
-/* Reads "rotate ..." and the like behind its first word, and applies it after `place`. False: the token is none. */
+/* Reads "rotate ..." and the like behind its first word, and applies it after `place`. False: the
+ * token is none. */
 bool pov_read_transform(struct pov_reader *reader, const struct pov_token *token,
                         struct transform *place);
 /* Whether that is one, which is then read into `step`. */
 bool pov_read_step(struct pov_reader *reader, const struct pov_token *token,
                    struct transform *step);
 
-/* --- objects ------------------------------------------------------------------------------------- */
+/* --- objects
+ * ------------------------------------------------------------------------------------- */
 
 enum pov_shape {
     POV_SHAPE_NOTHING,  /* nothing to be seen, or without a counterpart: then `note` says so */
@@ -188,7 +194,8 @@ bool pov_read_modifier(struct pov_reader *reader, const struct pov_token *token,
 /* Modifiers, up to the closing brace. */
 void pov_read_modifiers(struct pov_reader *reader, struct pov_object *object);
 
-/* The shapes that are read in files of their own, behind the open brace: fill in the object (mesh.c, sweep.c, light.c). */
+/* The shapes that are read in files of their own, behind the open brace: fill in the object
+ * (mesh.c, sweep.c, light.c). */
 void pov_read_mesh(struct pov_reader *reader, struct pov_object *object);
 void pov_read_mesh2(struct pov_reader *reader, struct pov_object *object);
 void pov_read_triangle(struct pov_reader *reader, struct pov_object *object, bool smooth);
@@ -203,7 +210,8 @@ void pov_read_light(struct pov_reader *reader, struct pov_object *object);
 /* Moves a mesh to the reader's memory. NULL: reported (surface.c). */
 const struct mesh *pov_keep_mesh(struct pov_reader *reader, struct mesh *mesh);
 
-/* --- the rest of the scene -------------------------------------------------------------------------- */
+/* --- the rest of the scene
+ * -------------------------------------------------------------------------- */
 
 struct pov_camera {
     struct vector location, direction, right, up, sky, look_at, focal_point;

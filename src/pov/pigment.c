@@ -1,8 +1,9 @@
-/* pigment.c: colours, maps of colours and patterns; see object.h and the reference of POV-Ray 3.7, "Pigment".
+/* pigment.c: colours, maps of colours and patterns; see object.h and the reference of POV-Ray 3.7,
+ * "Pigment".
  *
- * psplat has patterns of two colours. checker and gradient are the same ones, but for maps of more colours; what looks
- * like clouds becomes noise between the means of the lower and the upper half of the map; the mean colour stands for
- * what is left.
+ * psplat has patterns of two colours. checker and gradient are the same ones, but for maps of more
+ * colours; what looks like clouds becomes noise between the means of the lower and the upper half
+ * of the map; the mean colour stands for what is left.
  */
 #include "pov/expression.h"
 #include "pov/object.h"
@@ -42,7 +43,8 @@ static const struct {
     {POV_object, POV_PATTERN_OTHER},       {POV_image_pattern, POV_PATTERN_OTHER},
 };
 
-/* --- maps --------------------------------------------------------------------------------------- */
+/* --- maps
+ * --------------------------------------------------------------------------------------- */
 
 void pov_color_at(const struct pov_color_map *map, double at, double color[POV_TERMS])
 {
@@ -72,8 +74,9 @@ static void mean_between(const struct pov_color_map *map, double from, double to
     }
 }
 
-/* The line of least squares through the map from 0 to `last`: its mean, and so the light in all, is the map's. Where
- * the line leaves what colours the map has, it is cut there. `ends`: the map's there, then the line's. */
+/* The line of least squares through the map from 0 to `last`: its mean, and so the light in all, is
+ * the map's. Where the line leaves what colours the map has, it is cut there. `ends`: the map's
+ * there, then the line's. */
 static void line_through(const struct pov_color_map *map, double last, double ends[2][POV_TERMS])
 {
     enum { STEPS = 64 };
@@ -164,7 +167,8 @@ void pov_pigment_mean(const struct pov_pigment *pigment, double color[POV_TERMS]
     }
 }
 
-/* --- reading maps --------------------------------------------------------------------------------- */
+/* --- reading maps
+ * --------------------------------------------------------------------------------- */
 
 /* A pigment or texture in a list counts by its mean. */
 static bool read_mean(struct pov_reader *reader, double color[POV_TERMS])
@@ -190,7 +194,8 @@ static bool read_mean(struct pov_reader *reader, double color[POV_TERMS])
     return true;
 }
 
-/* A colour, or what in pigment_map and texture_map stands for one: the parts of a pigment without its braces. */
+/* A colour, or what in pigment_map and texture_map stands for one: the parts of a pigment without
+ * its braces. */
 static void read_map_color(struct pov_reader *reader, double color[POV_TERMS])
 {
     struct pov_token token;
@@ -292,7 +297,8 @@ const struct pov_color_map *pov_read_color_map(struct pov_reader *reader)
     return map && (map->entries || count == 0) ? map : NULL;
 }
 
-/* --- patterns ----------------------------------------------------------------------------------- */
+/* --- patterns
+ * ----------------------------------------------------------------------------------- */
 
 static void read_listed(struct pov_reader *reader, struct pov_pigment *pigment)
 {

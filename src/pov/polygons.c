@@ -87,8 +87,8 @@ static int side_of(const struct csg_plane *plane, const struct csg_vertex *v, si
     return before && behind ? 0 : before ? 1 : -1;
 }
 
-/* A polygon across the plane in two (I. Sutherland and G. Hodgman, "Reentrant polygon clipping", 1974); each has room
- * for one corner more. */
+/* A polygon across the plane in two (I. Sutherland and G. Hodgman, "Reentrant polygon clipping",
+ * 1974); each has room for one corner more. */
 static void split(const struct csg_plane *plane, const struct csg_vertex *v, size_t count,
                   double tolerance, struct csg_vertex *back, size_t *back_count,
                   struct csg_vertex *front, size_t *front_count)

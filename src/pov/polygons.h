@@ -52,8 +52,8 @@ void csg_polygons_clear(struct csg_polygons *polygons);
 bool csg_polygons_add(struct csg_polygons *polygons, const struct csg_vertex *vertices,
                       size_t count);
 
-/* Adds to `inside` and `outside` what of the polygons is so; each may be NULL. What lies within `tolerance` of a plane
- * counts as behind it. False: out of memory, or the budget is spent. */
+/* Adds to `inside` and `outside` what of the polygons is so; each may be NULL. What lies within
+ * `tolerance` of a plane counts as behind it. False: out of memory, or the budget is spent. */
 bool csg_cut(const struct csg_polygons *polygons, const struct csg_convex *convex, double tolerance,
              struct csg_polygons *inside, struct csg_polygons *outside, struct csg_budget *budget);
 

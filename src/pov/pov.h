@@ -1,8 +1,9 @@
 /* pov.h: makes a .psd scene of a scene of POV-Ray, version 3.7 or older.
  *
- * The language is that of the reference of POV-Ray 3.7, https://www.povray.org/documentation/3.7.0/. It is a program
- * that is run while it is read; what it may cost is limited. What psplat has no counterpart for is replaced by the
- * nearest, or left out, with a warning that names file and line, once for each kind. Meshes become files beside the
+ * The language is that of the reference of POV-Ray 3.7,
+ * https://www.povray.org/documentation/3.7.0/. It is a program that is run while it is read; what
+ * it may cost is limited. What psplat has no counterpart for is replaced by the nearest, or left
+ * out, with a warning that names file and line, once for each kind. Meshes become files beside the
  * scene; pictures that the scene names are referred to where they are.
  *
  * No state outside of the arguments; may run in several threads at once.
@@ -39,15 +40,16 @@ struct pov_options {
     size_t most_steps, most_memory; /* 0: as many as usual */
 };
 
-/* Converts a text; `name` stands in messages. Errors and warnings go to the sink. Not PS_OK: there is an error in the
- * sink, and `scene` is empty. */
+/* Converts a text; `name` stands in messages. Errors and warnings go to the sink. Not PS_OK: there
+ * is an error in the sink, and `scene` is empty. */
 ps_result pov_convert(const char *name, const char *text, size_t length,
                       const struct pov_options *options, struct diagnostics *sink,
                       struct written_scene *scene);
 
 /* Converts the file at `path` and writes `output`, which ends in ".psd", and the files beside it
- * (writer/import_file.h). What is wrong with the scene goes to the sink (PS_ERROR_INVALID), what is wrong with writing
- * to `error`, whose text is empty otherwise. `options` may lack what the paths say. */
+ * (writer/import_file.h). What is wrong with the scene goes to the sink (PS_ERROR_INVALID), what is
+ * wrong with writing to `error`, whose text is empty otherwise. `options` may lack what the paths
+ * say. */
 ps_result pov_import(const char *path, const char *output, const struct pov_options *options,
                      struct diagnostics *sink, struct error *error);
 

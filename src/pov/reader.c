@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- messages and memory ------------------------------------------------------------------------ */
+/* --- messages and memory
+ * ------------------------------------------------------------------------ */
 
 const char *pov_file(const struct pov_reader *reader)
 {
@@ -132,7 +133,8 @@ void pov_leave(struct pov_reader *reader)
     reader->depth--;
 }
 
-/* --- tokens ------------------------------------------------------------------------------------- */
+/* --- tokens
+ * ------------------------------------------------------------------------------------- */
 
 static struct pov_token end_of(const struct pov_reader *reader)
 {

@@ -1,7 +1,9 @@
-/* reader.h: the tokens of a POV-Ray scene in the order in which they count, and what is known while they are read.
+/* reader.h: the tokens of a POV-Ray scene in the order in which they count, and what is known while
+ * they are read.
  *
- * Directives are executed, and macros called, where the next token is asked for, as POV-Ray does (reference of POV-Ray
- * 3.7, "Language Directives"): who reads an object sees none of them. After an error there is only POV_END.
+ * Directives are executed, and macros called, where the next token is asked for, as POV-Ray does
+ * (reference of POV-Ray 3.7, "Language Directives"): who reads an object sees none of them. After
+ * an error there is only POV_END.
  *
  * One thread at a time. Everything is owned by the reader, which pov_convert makes and releases.
  */
@@ -73,8 +75,8 @@ struct pov_reader {
     struct pov_binding *spare;
     struct pov_token pushed; /* read again */
     bool has_pushed;
-    size_t
-        declaring; /* frames while a value is read in #declare: a directive of this one ends it; 0: none */
+    /* Frames while a value is read in #declare: a directive of this one ends it; 0: none. */
+    size_t declaring;
     size_t declaring_blocks;
     bool raw; /* macros are not called */
     int depth;
@@ -101,7 +103,8 @@ struct pov_reader {
     struct scene_text scene;
 };
 
-/* --- messages and memory ------------------------------------------------------------------------ */
+/* --- messages and memory
+ * ------------------------------------------------------------------------ */
 
 void pov_error(struct pov_reader *reader, const struct pov_token *token, const char *format, ...)
     PRINTF_LIKE(3, 4);
@@ -130,7 +133,8 @@ bool pov_grow(struct pov_reader *reader, void **items, size_t *capacity, size_t 
 bool pov_enter(struct pov_reader *reader, const struct pov_token *token);
 void pov_leave(struct pov_reader *reader);
 
-/* --- tokens ------------------------------------------------------------------------------------- */
+/* --- tokens
+ * ------------------------------------------------------------------------------------- */
 
 struct pov_token pov_next(struct pov_reader *reader);
 /* The same, where names of macros are names. */
@@ -153,22 +157,24 @@ void pov_skip_block(struct pov_reader *reader);
 /* Skips "{ ... }", if it follows. */
 void pov_skip_braces(struct pov_reader *reader);
 
-/* --- frames and names ---------------------------------------------------------------------------- */
+/* --- frames and names
+ * ---------------------------------------------------------------------------- */
 
 /* The text becomes the outermost file. False: reported. */
 bool pov_start(struct pov_reader *reader, const char *name, const char *text, size_t length);
 void pov_release(struct pov_reader *reader);
 /* Goes on in a file; `token`: where it is named. */
 void pov_include(struct pov_reader *reader, const struct pov_token *token, const char *name);
-/* Where a file lies that the scene names: in its folder, beside the scene, or in a library. To be freed. NULL: nowhere
- * (not reported). */
+/* Where a file lies that the scene names: in its folder, beside the scene, or in a library. To be
+ * freed. NULL: nowhere (not reported). */
 char *pov_find(struct pov_reader *reader, const char *name, bool *is_system);
 bool pov_push_frame(struct pov_reader *reader, const struct pov_token *token,
                     const struct pov_tokens *tokens, size_t at, bool is_file);
 void pov_pop_frame(struct pov_reader *reader);
 /* NULL: the word stands for nothing. */
 struct pov_value *pov_lookup(const struct pov_reader *reader, uint32_t word);
-/* A name of the current frame, or of all; `shared`: the value, or NULL for a new one. NULL: reported. */
+/* A name of the current frame, or of all; `shared`: the value, or NULL for a new one. NULL:
+ * reported. */
 struct pov_value *pov_bind(struct pov_reader *reader, uint32_t word, bool local,
                            struct pov_value *shared);
 /* Whether the word's meaning belongs to the current frame. */
@@ -180,7 +186,8 @@ void pov_unbind(struct pov_reader *reader, uint32_t word);
 struct pov_value *pov_element(struct pov_reader *reader, const struct pov_token *name,
                               struct pov_value *value);
 
-/* --- directive.c, macro.c ------------------------------------------------------------------------- */
+/* --- directive.c, macro.c
+ * ------------------------------------------------------------------------- */
 
 /* Executes; false: it ends the value that a #declare reads, and is to be read again. */
 bool pov_directive(struct pov_reader *reader, const struct pov_token *token);

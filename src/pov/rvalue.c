@@ -9,7 +9,8 @@
 
 #define LONGEST_TEXT 65536
 
-/* --- texts -------------------------------------------------------------------------------------- */
+/* --- texts
+ * -------------------------------------------------------------------------------------- */
 
 bool pov_begins_string(const struct pov_reader *reader, const struct pov_token *token)
 {
@@ -201,7 +202,8 @@ const char *pov_read_string(struct pov_reader *reader)
     return reader->stopped ? NULL : text;
 }
 
-/* --- arrays ------------------------------------------------------------------------------------- */
+/* --- arrays
+ * ------------------------------------------------------------------------------------- */
 
 /* Without comparisons: a comma may be missing before a vector. */
 static struct pov_value read_element(struct pov_reader *reader)
@@ -213,7 +215,8 @@ static struct pov_value read_element(struct pov_reader *reader)
     return (struct pov_value){.kind = POV_VALUE_NUMBER, .number = pov_read_number(reader)};
 }
 
-/* "{a, b, ...}" or, where there are more dimensions, lists of those. `left`: elements that there is room for. */
+/* "{a, b, ...}" or, where there are more dimensions, lists of those. `left`: elements that there is
+ * room for. */
 static void read_elements(struct pov_reader *reader, struct pov_array *array, int dimension,
                           struct pov_value *elements, size_t count)
 {
@@ -308,7 +311,8 @@ static struct pov_value copy_array(struct pov_reader *reader, const struct pov_a
     return (struct pov_value){.kind = POV_VALUE_ARRAY, .array = array};
 }
 
-/* --- all values ----------------------------------------------------------------------------------- */
+/* --- all values
+ * ----------------------------------------------------------------------------------- */
 
 static struct pov_value read_text_value(struct pov_reader *reader)
 {

@@ -1,11 +1,13 @@
-/* surroundings.c: what stands beside the objects of a scene, and the scene as a whole; see object.h. */
+/* surroundings.c: what stands beside the objects of a scene, and the scene as a whole; see
+ * object.h. */
 #include "pov/expression.h"
 #include "pov/object.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Colours of a picture whose gamma is assumed to be that of the display are decoded by it (write.c). */
+/* Colours of a picture whose gamma is assumed to be that of the display are decoded by it
+ * (write.c). */
 static void read_settings(struct pov_reader *reader)
 {
     struct pov_token token;

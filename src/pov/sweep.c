@@ -1,7 +1,8 @@
 /* sweep.c: reads what is made of curves: lathe, sor, prism, polygon; see object.h.
  *
- * The splines are those of the reference of POV-Ray 3.7, "Lathe" and "Prism": quadratic ones have one point before the
- * first, cubic ones (Catmull-Rom) one before and one behind, Bezier curves four points for each piece.
+ * The splines are those of the reference of POV-Ray 3.7, "Lathe" and "Prism": quadratic ones have
+ * one point before the first, cubic ones (Catmull-Rom) one before and one behind, Bezier curves
+ * four points for each piece.
  */
 #include "pov/expression.h"
 #include "pov/surface.h"
@@ -108,9 +109,11 @@ static uint32_t read_kind(struct pov_reader *reader, uint32_t usual)
     return usual;
 }
 
-/* --- around the y axis -------------------------------------------------------------------------------- */
+/* --- around the y axis
+ * -------------------------------------------------------------------------------- */
 
-/* The direction across the curve at one end of a piece; of smooth curves the mean with the neighbour's. */
+/* The direction across the curve at one end of a piece; of smooth curves the mean with the
+ * neighbour's. */
 static void across(const struct curve *curve, size_t piece, size_t end, double normal[2])
 {
     size_t last = curve->count - 2, from = piece, to = piece;
@@ -192,7 +195,8 @@ void pov_read_sor(struct pov_reader *reader, struct pov_object *object)
     free(curve.points);
 }
 
-/* --- along the y axis --------------------------------------------------------------------------------- */
+/* --- along the y axis
+ * --------------------------------------------------------------------------------- */
 
 struct sweep {
     double heights[2], scales[2]; /* scales: of the outline there */
@@ -298,7 +302,8 @@ void pov_read_prism(struct pov_reader *reader, struct pov_object *object)
     free(control.points);
 }
 
-/* --- polygons ----------------------------------------------------------------------------------------- */
+/* --- polygons
+ * ----------------------------------------------------------------------------------------- */
 
 /* Two axes of the plane that the points lie in. False: they lie on a line. */
 static bool plane_of(const struct vector *points, size_t count, struct vector axes[2])
@@ -377,7 +382,8 @@ void pov_read_polygon(struct pov_reader *reader, struct pov_object *object)
     pov_surface_finish(&surface, object);
 }
 
-/* --- surfaces by two parameters ------------------------------------------------------------------------- */
+/* --- surfaces by two parameters
+ * ------------------------------------------------------------------------- */
 
 static double signed_power(double base, double exponent)
 {
@@ -388,9 +394,9 @@ struct point2 {
     double x, y;
 };
 
-/* |x|^(2/e) + |y|^(2/e) = 1. The usual parameter, x = cos^e and y = sin^e, leaves the sides of near-squares without points and
- * never comes to the middle of a side, as cos(pi / 2) is no 0; so these go by the angle at the centre. It in turn would
- * leave the points of stars without any. */
+/* |x|^(2/e) + |y|^(2/e) = 1. The usual parameter, x = cos^e and y = sin^e, leaves the sides of
+ * near-squares without points and never comes to the middle of a side, as cos(pi / 2) is no 0; so
+ * these go by the angle at the centre. It in turn would leave the points of stars without any. */
 static struct point2 superellipse(double angle, double e)
 {
     double c = cos(angle), s = sin(angle);

@@ -91,7 +91,8 @@ struct pov_material pov_read_material(struct pov_reader *reader)
     return (struct pov_material){parts.texture, parts.interior};
 }
 
-/* --- declared ------------------------------------------------------------------------------------- */
+/* --- declared
+ * ------------------------------------------------------------------------------------- */
 
 /* "transform { ... }" */
 static struct transform read_transform_block(struct pov_reader *reader)
@@ -234,9 +235,11 @@ void pov_read_default(struct pov_reader *reader)
         reader->look = copy;
 }
 
-/* --- transforms ----------------------------------------------------------------------------------- */
+/* --- transforms
+ * ----------------------------------------------------------------------------------- */
 
-/* POV-Ray's axes are left-handed and so are its angles: in their own coordinates the matrices are the usual ones. */
+/* POV-Ray's axes are left-handed and so are its angles: in their own coordinates the matrices are
+ * the usual ones. */
 struct transform pov_rotation(struct vector degrees)
 {
     static const struct vector axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -1,7 +1,8 @@
 /* tokens.h: the text of a POV-Ray file as a list of tokens.
  *
- * A file is cut once and whole: loops and macros go back to a place in the list. Comments of C nest, as POV-Ray has
- * them. Texts that are no UTF-8 are taken for Latin-1. Lines and columns count from 1, columns in characters.
+ * A file is cut once and whole: loops and macros go back to a place in the list. Comments of C
+ * nest, as POV-Ray has them. Texts that are no UTF-8 are taken for Latin-1. Lines and columns count
+ * from 1, columns in characters.
  */
 #ifndef POV_TOKENS_H
 #define POV_TOKENS_H
@@ -42,8 +43,8 @@ struct pov_tokens {
     size_t count, capacity;
 };
 
-/* Cuts a text; words and texts go to the arena. False: out of memory, or there are more than `most` tokens: then
- * there are as many. `file` must outlive the tokens. */
+/* Cuts a text; words and texts go to the arena. False: out of memory, or there are more than `most`
+ * tokens: then there are as many. `file` must outlive the tokens. */
 bool pov_tokens_cut(struct pov_tokens *tokens, const char *file, const char *text, size_t length,
                     size_t most, struct pov_words *words, struct arena *arena);
 void pov_tokens_release(struct pov_tokens *tokens);

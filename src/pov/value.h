@@ -1,6 +1,7 @@
 /* value.h: what identifiers of a POV-Ray scene stand for.
  *
- * Values are copied; what they point to lies in the reader's arena and does not change, but for elements of arrays.
+ * Values are copied; what they point to lies in the reader's arena and does not change, but for
+ * elements of arrays.
  */
 #ifndef POV_VALUE_H
 #define POV_VALUE_H

@@ -1,7 +1,7 @@
 /* words.h: POV-Ray's reserved words as numbers, and the words of a scene.
  *
- * The words are those of the reference of POV-Ray 3.7, "Identifiers and Keywords", as far as the converter tells them
- * apart. Others, and the scene's own names, get the numbers behind.
+ * The words are those of the reference of POV-Ray 3.7, "Identifiers and Keywords", as far as the
+ * converter tells them apart. Others, and the scene's own names, get the numbers behind.
  */
 #ifndef POV_WORDS_H
 #define POV_WORDS_H

@@ -1,7 +1,7 @@
 /* write.h: the scene that was read becomes sections of a .psd text (psd(5)).
  *
- * POV-Ray's coordinates are left-handed: z is mirrored, unless the camera's axes are right-handed already. Then the
- * scene stays as it is, and the picture comes out as POV-Ray's.
+ * POV-Ray's coordinates are left-handed: z is mirrored, unless the camera's axes are right-handed
+ * already. Then the scene stays as it is, and the picture comes out as POV-Ray's.
  */
 #ifndef POV_WRITE_H
 #define POV_WRITE_H
@@ -40,7 +40,8 @@ struct pov_solid {
     size_t piece_count, capacity;
 };
 
-/* Planes times corners when solids are cut, in all of the scene, for each token that may be read. */
+/* Planes times corners when solids are cut, in all of the scene, for each token that may be
+ * read. */
 #define POV_MOST_CUTTING 100
 
 struct pov_writer {
@@ -84,8 +85,8 @@ void pov_write_object(struct pov_writer *writer, const struct pov_object *object
 /* Warns of what has no counterpart in an object, if anything. */
 void pov_warn_of_object(struct pov_writer *writer, const struct pov_object *object);
 
-/* The name of the material that stands for what is above; NULL: reported (write_material.c). `from_scene`: to the
- * space that its patterns are to lie in. */
+/* The name of the material that stands for what is above; NULL: reported (write_material.c).
+ * `from_scene`: to the space that its patterns are to lie in. */
 const char *pov_write_material(struct pov_writer *writer, const struct pov_above *above,
                                const struct transform *from_scene);
 /* The end of an object's map: material and, unless it is NULL, placement. */
@@ -107,8 +108,8 @@ void pov_write_mesh(struct pov_writer *writer, const struct pov_object *object,
                     const struct mesh *mesh, const struct pov_above *look);
 /* For lists by address. */
 uint64_t pov_hash_address(const void *address);
-/* The path by which the scene names a picture that the POV-Ray scene names. NULL: reported, or it can't be read, with a
- * warning (write_picture.c). */
+/* The path by which the scene names a picture that the POV-Ray scene names. NULL: reported, or it
+ * can't be read, with a warning (write_picture.c). */
 const char *pov_write_file_name(struct pov_writer *writer, const char *file,
                                 const struct pov_token *token, const char *name);
 
@@ -123,7 +124,8 @@ void pov_write_solid(struct pov_writer *writer, const struct pov_object *object,
 /* The pieces of a new solid; none, with a warning, where it takes too much (csg.c). */
 void pov_make_solid(struct pov_writer *writer, struct pov_solid *solid);
 
-/* A shape as a closed mesh in its own space, to be released; NULL where it is none. False: reported (tessellate.c). */
+/* A shape as a closed mesh in its own space, to be released; NULL where it is none. False: reported
+ * (tessellate.c). */
 bool pov_tessellate(struct pov_writer *writer, const struct pov_object *object, struct mesh *mesh);
 
 #endif

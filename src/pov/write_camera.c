@@ -1,7 +1,7 @@
 /* write_camera.c: POV-Ray's camera as psplat's; see write.h.
  *
- * look_at turns direction, up and right of POV-Ray's camera, and keeps their lengths; `angle` makes direction as long
- * as it takes (reference of POV-Ray 3.7, "Camera").
+ * look_at turns direction, up and right of POV-Ray's camera, and keeps their lengths; `angle` makes
+ * direction as long as it takes (reference of POV-Ray 3.7, "Camera").
  */
 #include "pov/write.h"
 

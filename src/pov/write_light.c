@@ -1,12 +1,13 @@
 /* write_light.c: POV-Ray's lights as psplat's; see write.h.
  *
- * A light of POV-Ray lights a surface with its colour times the cosine, at any distance unless it fades; psplat's of
- * intensity I with I / (pi d^2) times the cosine. fade_distance f and fade_power 2 make 2 / (1 + (d / f)^2) of the
- * colour, which far beyond f is 2 f^2 / d^2: an intensity of 2 pi f^2. A light that does not fade, or otherwise, gets
- * the intensity that is right where the camera looks.
+ * A light of POV-Ray lights a surface with its colour times the cosine, at any distance unless it
+ * fades; psplat's of intensity I with I / (pi d^2) times the cosine. fade_distance f and fade_power
+ * 2 make 2 / (1 + (d / f)^2) of the colour, which far beyond f is 2 f^2 / d^2: an intensity of 2 pi
+ * f^2. A light that does not fade, or otherwise, gets the intensity that is right where the camera
+ * looks.
  *
- * An area light of POV-Ray is a grid of points that each shine in all directions. Spheres of its area do the same, in a
- * row where it is long.
+ * An area light of POV-Ray is a grid of points that each shine in all directions. Spheres of its
+ * area do the same, in a row where it is long.
  */
 #include "pov/write.h"
 

@@ -1,9 +1,10 @@
 /* write_material.c: POV-Ray's textures as psplat's materials; see write.h.
  *
- * A pigment times the finish's diffuse is the share of light that is reflected diffusely: POV-Ray's lights light a
- * surface with that times the cosine, as psplat's of irradiance pi do. What shines through by filter and transmit is
- * glass. Highlights become gloss: Blinn's exponent n is a width alpha of sqrt(2 / (n + 2)) (B. Walter et al.,
- * "Microfacet models for refraction through rough surfaces", 2007), and Phong's exponent a quarter of Blinn's.
+ * A pigment times the finish's diffuse is the share of light that is reflected diffusely: POV-Ray's
+ * lights light a surface with that times the cosine, as psplat's of irradiance pi do. What shines
+ * through by filter and transmit is glass. Highlights become gloss: Blinn's exponent n is a width
+ * alpha of sqrt(2 / (n + 2)) (B. Walter et al., "Microfacet models for refraction through rough
+ * surfaces", 2007), and Phong's exponent a quarter of Blinn's.
  */
 #include "pov/write.h"
 
@@ -22,7 +23,8 @@ void pov_linear(const struct pov_reader *reader, const double color[3], double l
     }
 }
 
-/* --- patterns ------------------------------------------------------------------------------------- */
+/* --- patterns
+ * ------------------------------------------------------------------------------------- */
 
 struct paint {
     struct pov_writer *writer;
@@ -125,7 +127,8 @@ static void put_paint(struct paint *paint, FILE *out, const double factor[3], do
     fputs("}}", out);
 }
 
-/* --- kinds of surfaces ------------------------------------------------------------------------------ */
+/* --- kinds of surfaces
+ * ------------------------------------------------------------------------------ */
 
 static double largest_of(const double rgb[3])
 {
@@ -170,7 +173,8 @@ static void put_glossy(struct paint *paint, FILE *out, const struct pov_finish *
     fputc('}', out);
 }
 
-/* A diffuse surface that also is a mirror: a mix of the two, whose shares sum to what is reflected in all. */
+/* A diffuse surface that also is a mirror: a mix of the two, whose shares sum to what is reflected
+ * in all. */
 static void put_mirror(struct paint *paint, FILE *out, const struct pov_finish *f)
 {
     double r[3], share, color[3], mean[POV_TERMS];
@@ -265,7 +269,8 @@ static void put_glass(struct paint *paint, FILE *out, const struct pov_interior 
     fputc('}', out);
 }
 
-/* An ambient that says "shines", and not "in shade": psplat finds the light in the shade by itself. */
+/* An ambient that says "shines", and not "in shade": psplat finds the light in the shade by
+ * itself. */
 static bool ambient_shines(const struct pov_finish *f)
 {
     double ambient = f->has_ambient ? largest_of(f->ambient) : 0.0;
@@ -292,7 +297,8 @@ static void put_emission(struct paint *paint, FILE *out, const struct pov_finish
     fputs(", emission_both: yes", out);
 }
 
-/* --- the whole ------------------------------------------------------------------------------------ */
+/* --- the whole
+ * ------------------------------------------------------------------------------------ */
 
 static void warn_of_note(struct pov_writer *writer, const struct pov_note *note)
 {
@@ -384,7 +390,8 @@ static void lay_over(double color[POV_TERMS], const double below[POV_TERMS])
     color[4] = (filter + transmit) * below[4];
 }
 
-/* One layer of several: the highest, over the mean colour of those below it. False: out of memory. */
+/* One layer of several: the highest, over the mean colour of those below it. False: out of
+ * memory. */
 static bool flatten(struct pov_writer *writer, struct pov_texture *texture, int depth)
 {
     struct pov_texture below;

@@ -1,16 +1,18 @@
 /* write_mesh.c: meshes; see write.h.
  *
- * A mesh that is a file of its own, and comes again, becomes a group: its file is read once, whatever the number of
- * instances.
+ * A mesh that is a file of its own, and comes again, becomes a group: its file is read once,
+ * whatever the number of instances.
  */
 #include "pov/write.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* --- files and groups -------------------------------------------------------------------------------- */
+/* --- files and groups
+ * -------------------------------------------------------------------------------- */
 
-/* D. Knuth, "The Art of Computer Programming", 6.4: by the golden ratio; folded, since lists take the low bits. */
+/* D. Knuth, "The Art of Computer Programming", 6.4: by the golden ratio; folded, since lists take
+ * the low bits. */
 uint64_t pov_hash_address(const void *address)
 {
     uint64_t hash = (uint64_t)(uintptr_t)address * 0x9e3779b97f4a7c15;
@@ -105,7 +107,8 @@ static void write_mesh(struct pov_writer *writer, const struct pov_object *objec
     pov_end_object(writer, look, &placement, &transform_identity);
 }
 
-/* --- pictures over x and y ---------------------------------------------------------------------------- */
+/* --- pictures over x and y
+ * ---------------------------------------------------------------------------- */
 
 bool pov_is_planar(const struct pov_above *look)
 {

@@ -1,7 +1,8 @@
 /* write_object.c: POV-Ray's objects as psplat's; see write.h.
  *
- * Groups are taken apart: each object in them is placed in the world by itself, and has its own texture, or that of
- * the nearest group that has one. Shapes that psplat has are written as such, others as meshes.
+ * Groups are taken apart: each object in them is placed in the world by itself, and has its own
+ * texture, or that of the nearest group that has one. Shapes that psplat has are written as such,
+ * others as meshes.
  */
 #include "pov/write.h"
 
@@ -12,7 +13,8 @@
 #define LARGEST 1e15 /* coordinates, whose squares floats still hold */
 #define SMALLEST_DETERMINANT 1e-30
 
-/* --- placing -------------------------------------------------------------------------------------- */
+/* --- placing
+ * -------------------------------------------------------------------------------------- */
 
 bool pov_placement(struct pov_writer *writer, const struct pov_object *object,
                    const struct transform *place, struct transform *placement)
@@ -72,7 +74,8 @@ void pov_end_object(struct pov_writer *writer, const struct pov_above *look,
     fputs("}\n", out);
 }
 
-/* --- psplat's own shapes ---------------------------------------------------------------------------- */
+/* --- psplat's own shapes
+ * ---------------------------------------------------------------------------- */
 
 static void put_key_vector(FILE *out, const char *key, struct vector a)
 {
@@ -214,7 +217,8 @@ static void write_height_field(struct pov_writer *writer, const struct pov_objec
     }
 }
 
-/* --- all ------------------------------------------------------------------------------------------ */
+/* --- all
+ * ------------------------------------------------------------------------------------------ */
 
 void pov_warn_of_object(struct pov_writer *writer, const struct pov_object *object)
 {

@@ -1,6 +1,7 @@
 /* write_picture.c: the pictures that the scene names; see write.h.
  *
- * A picture that psplat can't read would be an error of the new scene: each is read once, and left out where it fails.
+ * A picture that psplat can't read would be an error of the new scene: each is read once, and left
+ * out where it fails.
  */
 #include "pov/write.h"
 
@@ -9,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The path from the new scene's folder, for a file below the old one's; else an absolute one. To be freed. NULL: there
- * is no such path, or out of memory. */
+/* The path from the new scene's folder, for a file below the old one's; else an absolute one. To be
+ * freed. NULL: there is no such path, or out of memory. */
 static char *path_from_output(const struct pov_options *options, const char *path)
 {
     size_t folder = strlen(options->scene_folder);

@@ -1,7 +1,7 @@
 /* write_sky.c: background and sky_sphere as psplat's sky; see write.h.
  *
- * POV-Ray's background and sky are only seen; psplat's also light the scene. A sky of a pattern is drawn by longitude
- * and latitude, as psd(5) has it: the middle at negative z, the top at y.
+ * POV-Ray's background and sky are only seen; psplat's also light the scene. A sky of a pattern is
+ * drawn by longitude and latitude, as psd(5) has it: the middle at negative z, the top at y.
  */
 #include "pov/write.h"
 

@@ -1,7 +1,8 @@
 /* write_solid.c: solids by boolean operations, each made once; see write.h.
  *
- * Copies of a declared object share the list of what it is made of, and differ in their transforms and looks: what is
- * left of the parts' surfaces is kept in the space of the object, and written for each copy from the same meshes.
+ * Copies of a declared object share the list of what it is made of, and differ in their transforms
+ * and looks: what is left of the parts' surfaces is kept in the space of the object, and written
+ * for each copy from the same meshes.
  */
 #include "pov/write.h"
 

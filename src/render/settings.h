@@ -44,7 +44,8 @@ static inline uint32_t settings_pass_count(const struct render_settings *setting
     return settings->passes - settings->first_pass;
 }
 
-/* The kernel of the instruction set that is asked for, or of the best. PS_ERROR_INVALID where this processor lacks it. */
+/* The kernel of the instruction set that is asked for, or of the best. PS_ERROR_INVALID where this
+ * processor lacks it. */
 ps_result settings_choose_kernel(const struct render_settings *settings,
                                  struct kernel_variant *kernel, struct error *error);
 
@@ -54,8 +55,8 @@ ps_result settings_check_isa(const char *isa, struct error *error);
 /* Called for each problem; `origin` has line 0 where it came from the command line. */
 typedef void (*settings_report)(void *user, const struct origin *origin, const char *message);
 
-/* Loads and fills the strategies and starts `threads` workers. After reports it returns the result of the first;
- * settings are released then. */
+/* Loads and fills the strategies and starts `threads` workers. After reports it returns the result
+ * of the first; settings are released then. */
 ps_result settings_resolve(struct loader *loader, const struct render_description *description,
                            uint32_t threads, size_t batch, settings_report report, void *user,
                            struct render_settings *settings);

@@ -1,4 +1,5 @@
-/* state.h: a render in progress: what the driver, the services to plugins and the debug views share. */
+/* state.h: a render in progress: what the driver, the services to plugins and the debug views
+ * share. */
 #ifndef RENDER_STATE_H
 #define RENDER_STATE_H
 
@@ -110,16 +111,16 @@ double render_fraction(const struct render *render, double of_pass);
 /* How many passes the sum or the film holds. */
 uint32_t render_passes_done(const struct render *render);
 
-/* Takes the first reason why the callback under way fails; any thread. Returns `result`, or PS_ERROR_INVALID in
- * place of PS_OK. */
+/* Takes the first reason why the callback under way fails; any thread. Returns `result`, or
+ * PS_ERROR_INVALID in place of PS_OK. */
 ps_result render_fail(struct render *render, ps_result result, const char *why);
 
-/* The same where a service that the callback uses fails, as the error tells; user's wish to stop is none. Returns
- * `result`. */
+/* The same where a service that the callback uses fails, as the error tells; user's wish to stop is
+ * none. Returns `result`. */
 ps_result render_pass_on(struct render *render, ps_result result, const struct error *error);
 
-/* What became of a callback of a strategy: its result, unless it failed all the same. The error then names the
- * strategy. */
+/* What became of a callback of a strategy: its result, unless it failed all the same. The error
+ * then names the strategy. */
 ps_result render_judge(struct render *render, ps_kind kind, ps_result result, struct error *error);
 
 /* Makes render->importance, once a render; render->pass must be there. */

@@ -11,7 +11,8 @@
 /* Of the sides of its pixels: a picture is made where they are so much smaller than before. */
 #define WORTHWHILE 0.8
 
-/* A first pass may take longer than first pictures tell, which matters where there is none that takes less. */
+/* A first pass may take longer than first pictures tell, which matters where there is none that
+ * takes less. */
 #define MARGIN 1.15
 
 /* A pass of draft quality takes this share of its time for what no quality changes. */
@@ -109,7 +110,8 @@ ps_result first_pictures_enlarge(const struct first_pictures *first,
     return result;
 }
 
-/* Two tell the time, and others are made where they cost little beside a pass, and beside what is left. */
+/* Two tell the time, and others are made where they cost little beside a pass, and beside what is
+ * left. */
 static bool is_worth_making(const struct first_pictures *first, double step, unsigned made)
 {
     if (made < 2)

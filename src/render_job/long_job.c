@@ -63,7 +63,8 @@ ps_result long_job_set_passes(const struct long_job *job, struct render_settings
     return PS_OK;
 }
 
-/* --- processes -------------------------------------------------------------------------------------- */
+/* --- processes
+ * -------------------------------------------------------------------------------------- */
 
 static bool is_first(const struct long_job *job)
 {
@@ -87,7 +88,8 @@ bool long_job_has_run(const struct long_job *job, uint32_t first, uint32_t passe
            (set->count == 1 && set->runs[0].first == first && set->runs[0].end == first + passes);
 }
 
-/* --- films ------------------------------------------------------------------------------------------ */
+/* --- films
+ * ------------------------------------------------------------------------------------------ */
 
 static ps_result resume(struct long_job *job, struct error *error)
 {
@@ -160,7 +162,8 @@ ps_result long_job_write_film(struct long_job *job, struct error *error)
     return write_film(job, job->options->output.options.compression, error);
 }
 
-/* On the way, since `start`, with what made it ready; a disk that is full now may have room later. */
+/* On the way, since `start`, with what made it ready; a disk that is full now may have room
+ * later. */
 static void write_checkpoint(struct long_job *job, double start)
 {
     struct error error;
@@ -171,7 +174,8 @@ static void write_checkpoint(struct long_job *job, double start)
     schedule_note_checkpoint(&job->schedule, start, clock_seconds());
 }
 
-/* --- between passes --------------------------------------------------------------------------------- */
+/* --- between passes
+ * --------------------------------------------------------------------------------- */
 
 static void look_at_picture(struct long_job *job, struct render *render, bool write, bool show)
 {

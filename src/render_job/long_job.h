@@ -1,4 +1,5 @@
-/* long_job.h: what a render does between its passes: budgets, pictures and films on the way, what it resumes. */
+/* long_job.h: what a render does between its passes: budgets, pictures and films on the way, what
+ * it resumes. */
 #ifndef RENDER_JOB_LONG_JOB_H
 #define RENDER_JOB_LONG_JOB_H
 
@@ -34,17 +35,18 @@ struct long_job {
     bool film_failed;       /* a checkpoint could not be written, and that was said */
 };
 
-/* Makes it ready; what the job lends is there. `start`: when the time of the budget began. To be released in any case. */
+/* Makes it ready; what the job lends is there. `start`: when the time of the budget began. To be
+ * released in any case. */
 void long_job_init(struct long_job *job, double start);
 void long_job_release(struct long_job *job);
 
-/* Lays a budget's passes over the settings. PS_ERROR_INVALID where the denoiser does not tell the error that is asked
- * for. */
+/* Lays a budget's passes over the settings. PS_ERROR_INVALID where the denoiser does not tell the
+ * error that is asked for. */
 ps_result long_job_set_passes(const struct long_job *job, struct render_settings *settings,
                               struct error *error);
 
-/* Locks the checkpoint, and reads it where it is to be resumed; sees to it that all processes have the same job. An
- * error without a text is another process's to tell. */
+/* Locks the checkpoint, and reads it where it is to be resumed; sees to it that all processes have
+ * the same job. An error without a text is another process's to tell. */
 ps_result long_job_begin(struct long_job *job, const struct scene_description *description,
                          const struct scene *scene, const struct render_settings *settings,
                          struct error *error);

@@ -1,7 +1,8 @@
 /* processes.h: the processes that share a job (option `mpi`), as one of them sees them.
  *
- * The first reads the scene, deals the passes out, and is the one that writes and tells; what goes wrong in all of them is
- * told by the first alone. Each of them has to come as far as the agreement, or leave, since the others wait for it.
+ * The first reads the scene, deals the passes out, and is the one that writes and tells; what goes
+ * wrong in all of them is told by the first alone. Each of them has to come as far as the
+ * agreement, or leave, since the others wait for it.
  */
 #ifndef RENDER_JOB_PROCESSES_H
 #define RENDER_JOB_PROCESSES_H
@@ -27,8 +28,8 @@ bool processes_is_first(const struct processes *processes);
 /* Digest of a process that failed before it had a job. */
 #define NO_JOB 0
 
-/* Whether all have the same job. The first tells what is wrong, unless it failed itself; in the others the error has no text
- * then. */
+/* Whether all have the same job. The first tells what is wrong, unless it failed itself; in the
+ * others the error has no text then. */
 ps_result processes_agree(struct processes *processes, uint64_t digest, struct error *error);
 
 #endif

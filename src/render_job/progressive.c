@@ -1,8 +1,8 @@
 /* progressive.c: a render that shows something within a second, and keeps to its time.
  *
- * Pictures of large pixels come before the first pass (first_pictures.h). Where they tell that there is no time for passes
- * as they were asked for, passes are of less quality, and where not even one of these would be done, the last of those
- * pictures is the result.
+ * Pictures of large pixels come before the first pass (first_pictures.h). Where they tell that
+ * there is no time for passes as they were asked for, passes are of less quality, and where not
+ * even one of these would be done, the last of those pictures is the result.
  */
 #include "base/clock.h"
 #include "render_job/first_pictures.h"
@@ -71,7 +71,8 @@ static bool wants_first_pictures(const struct render_job *job)
            job->passes.film.passes.count == 0;
 }
 
-/* A film holds passes as they were asked for, and who asks for a quality, or a number of passes, gets that. */
+/* A film holds passes as they were asked for, and who asks for a quality, or a number of passes,
+ * gets that. */
 static bool chooses_quality(const struct render_job *job)
 {
     const struct render_options *options = job->options;
@@ -110,7 +111,8 @@ static ps_result take_as_picture(struct render_job *job, const struct first_pict
     return result == PS_OK && cancelled ? PS_CANCELLED : result;
 }
 
-/* So that what was asked for is done in time: by the settings, or by the picture, where that is no pass. */
+/* So that what was asked for is done in time: by the settings, or by the picture, where that is no
+ * pass. */
 static ps_result keep_to_time(struct render_job *job, struct first_pictures *first,
                               struct image *image, struct error *error)
 {

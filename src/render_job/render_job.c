@@ -42,7 +42,8 @@ static void tell_of_file(void *user, const char *path)
     tell(user, message);
 }
 
-/* --- what the render asks ----------------------------------------------------------------------------- */
+/* --- what the render asks
+ * ----------------------------------------------------------------------------- */
 
 static bool has_files(const struct render_job *job)
 {
@@ -93,7 +94,8 @@ static void show_message(void *user, ps_log_level level, const char *message)
     job->callbacks->log(job->callbacks->user, level, message);
 }
 
-/* --- what the passes' keeper asks --------------------------------------------------------------------- */
+/* --- what the passes' keeper asks
+ * --------------------------------------------------------------------- */
 
 static bool asks_to_write(void *user)
 {
@@ -127,7 +129,8 @@ static void show_picture_on_the_way(void *user, struct image *image)
     job->callbacks->show(job->callbacks->user, image, job->passes.passes_seen);
 }
 
-/* --- the render --------------------------------------------------------------------------------------- */
+/* --- the render
+ * --------------------------------------------------------------------------------------- */
 
 static ps_result write_statistics(const struct render_job *job, struct error *error)
 {

@@ -1,4 +1,5 @@
-/* render_job.h: one render, from options and a scene to the picture and the files that were asked for.
+/* render_job.h: one render, from options and a scene to the picture and the files that were asked
+ * for.
  *
  *     first pictures -> passes, and between them what is due -> picture -> files
  *
@@ -9,10 +10,12 @@
 
 #include "render_job/long_job.h"
 
-/* How a job talks to its user. Where nothing else is said, NULL or a function, which the calling thread calls. */
+/* How a job talks to its user. Where nothing else is said, NULL or a function, which the calling
+ * thread calls. */
 struct render_job_callbacks {
     void *user;
-    /* Of the whole render, 0..1; passes that are done; the error of indirect light by estimate, negative: not known. */
+    /* Of the whole render, 0..1; passes that are done; the error of indirect light by estimate,
+     * negative: not known. */
     void (*progress)(void *user, const char *stage, double fraction, uint32_t passes, double error);
     void (*log)(void *user, ps_log_level level, const char *message); /* any thread; not NULL */
     bool (*cancelled)(void *user);                                    /* any thread; not NULL */
@@ -42,14 +45,16 @@ struct render_job {
 /* Lays over the settings what of a picture is made for others to see. */
 void render_job_set_wishes(const struct render_job *job, struct render_settings *settings);
 
-/* Renders. The picture, which is 0 x 0 where there is none, is the caller's; of a tiled render there is none. `passes`:
- * how many it has. Results are those of render_run, and of the files. */
+/* Renders. The picture, which is 0 x 0 where there is none, is the caller's; of a tiled render
+ * there is none. `passes`: how many it has. Results are those of render_run, and of the files. */
 ps_result render_job_run(struct render_job *job, struct image *image, uint32_t *passes,
                          struct error *error);
 
-/* --- for its own parts ------------------------------------------------------------------------------- */
+/* --- for its own parts
+ * ------------------------------------------------------------------------------- */
 
-/* Renders tile by tile, straight into the files: those appear where there is a tile and they can be written. */
+/* Renders tile by tile, straight into the files: those appear where there is a tile and they can be
+ * written. */
 ps_result render_job_tiled(struct render_job *job, const struct render_callbacks *callbacks,
                            struct error *error);
 

@@ -1,6 +1,8 @@
-/* bsdf.c: how a surface scatters: drawing directions, and evaluating and weighing those that were drawn otherwise.
+/* bsdf.c: how a surface scatters: drawing directions, and evaluating and weighing those that were
+ * drawn otherwise.
  *
- * Facets: Walter et al. 2007, Heitz 2018 (microfacet.h). Shading normals on light paths: Veach 1997, section 5.3.
+ * Facets: Walter et al. 2007, Heitz 2018 (microfacet.h). Shading normals on light paths: Veach
+ * 1997, section 5.3.
  */
 #include "scene/bsdf_lobes.h"
 
@@ -24,8 +26,8 @@ static void share_paths(const struct bsdf_lobe *lobes, size_t count, uint32_t pa
         shares[i]++;
 }
 
-/* Chooses a lobe by *number, and rescales that so that it can be used again. Returns the lobe's probability. Fewer paths than
- * lobes do not share them out: each is alone. */
+/* Chooses a lobe by *number, and rescales that so that it can be used again. Returns the lobe's
+ * probability. Fewer paths than lobes do not share them out: each is alone. */
 static float choose_lobe(const struct bsdf_lobe *lobes, size_t count, float *number,
                          struct stratum *stratum, const struct bsdf_lobe **lobe)
 {
@@ -124,9 +126,9 @@ static ps_rgb transmittance(ps_rgb absorption, float distance)
                     expf(-absorption.b * distance)};
 }
 
-/* Chance by which glass mirrors, of the share that it does. Of camera paths of a pixel a whole number goes either way, at
- * least one, so that what is rare is seen in all pixels, and as often; a path alone goes the rarer way one time in eight.
- * Photons keep their power. */
+/* Chance by which glass mirrors, of the share that it does. Of camera paths of a pixel a whole
+ * number goes either way, at least one, so that what is rare is seen in all pixels, and as often; a
+ * path alone goes the rarer way one time in eight. Photons keep their power. */
 static float chance_to_mirror(float reflectance, ps_direction direction, uint32_t paths)
 {
     float parts = paths > 1 ? (float)paths : 8.0f;
@@ -148,8 +150,8 @@ static bool choose_to_mirror(float chance, float number, struct stratum *stratum
     return mirrors;
 }
 
-/* Mirrors or refracts, by chance. Radiance is squeezed into a smaller solid angle on the denser side;
- * power is not. */
+/* Mirrors or refracts, by chance. Radiance is squeezed into a smaller solid angle on the denser
+ * side; power is not. */
 static ps_bsdf_sample pass_surface(const struct bsdf_lobe *lobe, const struct bsdf_view *view,
                                    ps_direction direction, float number, struct stratum *stratum)
 {
@@ -193,8 +195,8 @@ static ps_bsdf_sample follow_lobe(const struct bsdf_lobe *lobe, const struct bsd
     return reflect_roughly(lobe, view, direction, sample);
 }
 
-/* What light paths lose or gain at smoothed and bent normals (Veach 1997, section 5.3): where they arrive, along
- * view->out, and where they leave along w. */
+/* What light paths lose or gain at smoothed and bent normals (Veach 1997, section 5.3): where they
+ * arrive, along view->out, and where they leave along w. */
 static float arrival_correction(const struct bsdf_view *view)
 {
     ps_vec3 shading = view->hit->normal, true_normal = view->hit->geometric_normal;
@@ -215,10 +217,12 @@ static float shading_correction(const struct bsdf_view *view, ps_vec3 w)
     return arrival_correction(view) * away;
 }
 
-/* --- surfaces that are diffuse alone ---------------------------------------------------------------
+/* --- surfaces that are diffuse alone
+ * ---------------------------------------------------------------
  *
- * What arrives counts by the shading normal, and what leaves goes to all directions of the surface itself, whichever side of
- * its shading normal they are on. So camera paths draw by the shading normal, and light paths by the geometric one. */
+ * What arrives counts by the shading normal, and what leaves goes to all directions of the surface
+ * itself, whichever side of its shading normal they are on. So camera paths draw by the shading
+ * normal, and light paths by the geometric one. */
 
 static ps_bsdf_sample scatter_light_diffusely(const struct bsdf_view *view, const float sample[4])
 {
@@ -250,7 +254,8 @@ static ps_bsdf_value evaluate_diffuse(const struct bsdf_view *view, ps_direction
                            geometric, back_shading};
 }
 
-/* --- any surface ------------------------------------------------------------------------------- */
+/* --- any surface
+ * ------------------------------------------------------------------------------- */
 
 ps_bsdf_sample material_scatter(const struct material *material,
                                 const struct microfacet_table *table, ps_direction direction,
@@ -283,9 +288,9 @@ ps_bsdf_sample material_scatter(const struct material *material,
     return scattered;
 }
 
-/* The lobe's part of the value, with light that comes from `in` and leaves to `out`, or the other way round;
- * `eye`: the cosine of where it leaves to. Directions in the shading frame; `pdf` becomes the density by which
- * material_scatter draws `in`, given `out`. */
+/* The lobe's part of the value, with light that comes from `in` and leaves to `out`, or the other
+ * way round; `eye`: the cosine of where it leaves to. Directions in the shading frame; `pdf`
+ * becomes the density by which material_scatter draws `in`, given `out`. */
 static ps_rgb evaluate_lobe(const struct bsdf_lobe *lobe, const struct bsdf_view *view, ps_vec3 out,
                             ps_vec3 in, float eye, float *pdf)
 {

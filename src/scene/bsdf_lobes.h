@@ -1,7 +1,9 @@
-/* bsdf_lobes.h: what a surface point scatters by, for the files that work with a material's BSDF (bsdf_lobes.c, bsdf.c).
+/* bsdf_lobes.h: what a surface point scatters by, for the files that work with a material's BSDF
+ * (bsdf_lobes.c, bsdf.c).
  *
- * A material is a sum of components (material.h). Light goes on by the diffuse lobe of all of them together, or by the
- * other lobe of one. Colours and numbers are looked up where the hit is, over what its ray cone covers.
+ * A material is a sum of components (material.h). Light goes on by the diffuse lobe of all of them
+ * together, or by the other lobe of one. Colours and numbers are looked up where the hit is, over
+ * what its ray cone covers.
  */
 #ifndef SCENE_BSDF_LOBES_H
 #define SCENE_BSDF_LOBES_H
@@ -67,12 +69,12 @@ static inline bool bsdf_is_smooth(float roughness)
 ps_rgb bsdf_reflector_albedo(const struct component *component, const struct bsdf_view *view,
                              float cosine);
 
-/* The diffuse albedo of all components towards `cosine`. It looks up colours and patterns: where view->diffuse is the same, it costs
- * nothing. */
+/* The diffuse albedo of all components towards `cosine`. It looks up colours and patterns: where
+ * view->diffuse is the same, it costs nothing. */
 ps_rgb bsdf_diffuse_albedo(const struct bsdf_view *view, float cosine);
 
-/* A way in which light may go on: the other lobe of a component, or the diffuse one of all, which is
- * a single one so that what ends there may count the whole albedo. */
+/* A way in which light may go on: the other lobe of a component, or the diffuse one of all, which
+ * is a single one so that what ends there may count the whole albedo. */
 struct bsdf_lobe {
     const struct component *component; /* NULL: diffuse */
     float probability;

@@ -17,8 +17,9 @@
 
 #include "scene/pigment.h"
 
-/* log_width: as of pigment_filter, and of texture_filter. `normal` has length 1; `dpdu`, `dpdv` are derivatives of the position by u and v, or 0 where the
- * surface has no (u, v): then images have no effect. */
+/* log_width: as of pigment_filter, and of texture_filter. `normal` has length 1; `dpdu`, `dpdv` are
+ * derivatives of the position by u and v, or 0 where the surface has no (u, v): then images have no
+ * effect. */
 ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2], float log_width,
                   ps_vec3 normal, ps_vec3 dpdu, ps_vec3 dpdv);
 

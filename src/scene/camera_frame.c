@@ -1,7 +1,7 @@
 /* camera_frame.c: the nearest location from which a direction of view shows all corners of a box.
  *
- * With the view's right r, up u, forward f and the tangents t_r, t_u of half the field of view, a corner p is in the
- * picture of a camera at c where
+ * With the view's right r, up u, forward f and the tangents t_r, t_u of half the field of view, a
+ * corner p is in the picture of a camera at c where
  *
  *     |(p - c) . r| <= t_r (p - c) . f,    and the same of u and t_u.
  *
@@ -9,15 +9,16 @@
  *
  *     c.f <= -(R + L) / (2 t_r),   where c.r = (R - L) / 2 is in the middle of what is left,
  *
- * so that c.f is the smaller of what r and u allow. A sphere around the box would be simpler, and lets it look small.
+ * so that c.f is the smaller of what r and u allow. A sphere around the box would be simpler, and
+ * lets it look small.
  */
 #include "scene/camera_frame.h"
 
 #include "scene/vector.h"
 #include <float.h>
 
-/* The view from a model's front: 29 degrees to the right; raised by 20 degrees, and by 40 what is flat, of which a
- * lower view shows little. */
+/* The view from a model's front: 29 degrees to the right; raised by 20 degrees, and by 40 what is
+ * flat, of which a lower view shows little. */
 #define TURN 29.0
 #define RAISED 20.0
 #define RAISED_FLAT 40.0
@@ -55,9 +56,11 @@ static struct view view_along(struct vector forward, ps_vec3 up)
     return (struct view){right, vector_cross(right, f), f};
 }
 
-/* --- the direction of view ------------------------------------------------------------------------ */
+/* --- the direction of view
+ * ------------------------------------------------------------------------ */
 
-/* The shortest turn from y to the axis; from -y it is about x. Rodrigues' formula for the axis y x up. */
+/* The shortest turn from y to the axis; from -y it is about x. Rodrigues' formula for the axis y x
+ * up. */
 static struct vector turned_with_up(struct vector v, struct vector up)
 {
     if (up.y < -1.0 + 1e-9)
@@ -88,7 +91,8 @@ static struct vector three_quarter(const struct box *box, struct vector up)
     return add_scaled(add_scaled((struct vector){0, 0, 0}, cos(raised), level), sin(raised), up);
 }
 
-/* --- the distance --------------------------------------------------------------------------------- */
+/* --- the distance
+ * --------------------------------------------------------------------------------- */
 
 static double diagonal_of(const struct box *box)
 {
@@ -96,7 +100,8 @@ static double diagonal_of(const struct box *box)
     return vector_length(size);
 }
 
-/* A wide view shows all from next to the nearest corner: the depth before that where the camera may be at most. */
+/* A wide view shows all from next to the nearest corner: the depth before that where the camera may
+ * be at most. */
 static double nearest_depth(const struct box *box, struct vector forward)
 {
     double nearest = DBL_MAX;
@@ -105,7 +110,8 @@ static double nearest_depth(const struct box *box, struct vector forward)
     return nearest - LEAST_DISTANCE * diagonal_of(box);
 }
 
-/* Of the corners along one side of the picture: the largest of p.side - t p.f and of -p.side - t p.f. */
+/* Of the corners along one side of the picture: the largest of p.side - t p.f and of -p.side - t
+ * p.f. */
 struct span {
     double high, low;
 };
@@ -177,7 +183,8 @@ static double orthographic_half_width(const struct box *box, const struct view *
     return half / USED_SHARE;
 }
 
-/* --- all of it ------------------------------------------------------------------------------------ */
+/* --- all of it
+ * ------------------------------------------------------------------------------------ */
 
 static ps_result check_direction(const struct camera_description *camera, struct error *error)
 {

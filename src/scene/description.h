@@ -17,7 +17,8 @@
 /* "No such thing", where an index is expected. */
 #define NO_INDEX SIZE_MAX
 
-/* --- camera and picture ------------------------------------------------------------------------ */
+/* --- camera and picture
+ * ------------------------------------------------------------------------ */
 
 enum camera_kind { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC };
 
@@ -43,7 +44,8 @@ struct image_description {
     struct origin origin;
 };
 
-/* --- textures and pigments ---------------------------------------------------------------------- */
+/* --- textures and pigments
+ * ---------------------------------------------------------------------- */
 
 enum texture_wrap { WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR };
 enum texture_encoding { ENCODING_AUTO, ENCODING_SRGB, ENCODING_LINEAR }; /* auto: by file type */
@@ -91,7 +93,8 @@ struct pigment_description {
     double turbulence;       /* of PIGMENT_NOISE, PIGMENT_GRADIENT: displacement by noise */
 };
 
-/* --- materials ----------------------------------------------------------------------------------- */
+/* --- materials
+ * ----------------------------------------------------------------------------------- */
 
 enum material_kind {
     MATERIAL_DIFFUSE,    /* color: Lambertian reflectance, on both sides */
@@ -280,7 +283,8 @@ static inline bool object_is_endless(const struct object_description *object)
     return object->kind == OBJECT_PLANE && !(object->extent > 0);
 }
 
-/* A plane that takes its size or place from the rest of the scene, and is made when that is there. */
+/* A plane that takes its size or place from the rest of the scene, and is made when that is
+ * there. */
 static inline bool object_comes_last(const struct object_description *object)
 {
     return object_is_endless(object) ||

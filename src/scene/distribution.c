@@ -52,14 +52,15 @@ static size_t take(const float *cumulative, size_t entry, float u, float *rest)
     return entry;
 }
 
-/* --- the guide ---------------------------------------------------------------------------------------- */
+/* --- the guide
+ * ---------------------------------------------------------------------------------------- */
 
 #define MOST_GUIDES 65536u
 #define ENTRY_GUIDES 4u
 #define ROUNDING 0x1p-20f /* more than u * guides is off by, less than the width of a guide */
 
-/* guide[k] is the first entry that a number from k / guides on chooses, or one before it; u * guides may be rounded up to
- * `guides` itself. */
+/* guide[k] is the first entry that a number from k / guides on chooses, or one before it; u *
+ * guides may be rounded up to `guides` itself. */
 static void make_guide(struct distribution *distribution)
 {
     size_t last = distribution->count - 1;
@@ -78,7 +79,7 @@ static size_t search_by_guide(const struct distribution *distribution, float u)
     return is_first ? guide[0] : search(distribution->cumulative, guide[0] + 1, guide[2], u);
 }
 
-/* ------------------------------------------------------------------------------------------------------ */
+/* ---------------------------------------------------------------------------------------------- */
 
 ps_result distribution_create(const float *weights, size_t count, struct distribution *distribution,
                               struct error *error)

@@ -18,8 +18,9 @@ struct distribution {
     float *cumulative; /* share of the entries up to and with this one; the last is 1 */
     size_t count;
     double total; /* of the weights */
-    /* Where the search for numbers from k / guides on begins: the guide table of Chen and Asau 1974, "On generating random
-     * variates from an empirical distribution". A bisection of all entries goes by branches that no processor foresees. */
+    /* Where the search for numbers from k / guides on begins: the guide table of Chen and Asau
+     * 1974, "On generating random variates from an empirical distribution". A bisection of all
+     * entries goes by branches that no processor foresees. */
     uint32_t *guide;
     size_t guides;
 };

@@ -1,7 +1,8 @@
 /* fresnel.h: how much of the light a smooth surface reflects, by angle.
  *
  * Schlick 1994 for metals and coats, whose colour at normal incidence users state; Fresnel's
- * equations for unpolarized light at the surface of glass and water, where total reflection matters.
+ * equations for unpolarized light at the surface of glass and water, where total reflection
+ * matters.
  */
 #ifndef SCENE_FRESNEL_H
 #define SCENE_FRESNEL_H
@@ -24,8 +25,8 @@ static inline ps_rgb fresnel_schlick(ps_rgb f0, float cosine)
                     f0.b + (1.0f - f0.b) * rise};
 }
 
-/* Reflectance between two dielectrics, 0..1. `eta`: index of the far side over that of the near one.
- * Sets the cosine of the refracted direction, 0 where all is reflected. */
+/* Reflectance between two dielectrics, 0..1. `eta`: index of the far side over that of the near
+ * one. Sets the cosine of the refracted direction, 0 where all is reflected. */
 static inline float fresnel_dielectric(float cosine, float eta, float *refracted_cosine)
 {
     float sine2 = (1.0f - cosine * cosine) / (eta * eta);

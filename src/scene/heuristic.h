@@ -2,8 +2,9 @@
 #ifndef SCENE_HEURISTIC_H
 #define SCENE_HEURISTIC_H
 
-/* The share of what was drawn with density `own`, where the other sampling has density `other`: the
- * power heuristic. All of it where one of them is a delta, given as 0, which the other can't meet. */
+/* The share of what was drawn with density `own`, where the other sampling has density `other`:
+ * the power heuristic. All of it where one of them is a delta, given as 0, which the other can't
+ * meet. */
 static inline float power_heuristic(float own, float other)
 {
     if (!(own > 0.0f && other > 0.0f))

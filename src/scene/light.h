@@ -91,8 +91,8 @@ struct light_sky {
     struct distribution_2d by_radiance;
     float turn;     /* of the picture about y, in rotations */
     ps_rgb fluence; /* radiance integrated over all directions, W/m^2 */
-    /* That from which most of the light comes: (integral of L)^2 / integral of L^2, of luminance. 4 pi for one colour, less
-     * than 0.01 sr where a sun is in the picture. */
+    /* That from which most of the light comes: (integral of L)^2 / integral of L^2, of luminance. 4
+     * pi for one colour, less than 0.01 sr where a sun is in the picture. */
     float solid_angle;
     struct light_bounds bounds;
 };
@@ -157,8 +157,8 @@ ps_rgb light_power(const struct light *light);
 /* Whether it shines from infinity: sun and sky. */
 bool light_is_afar(const struct light *light);
 
-/* Whether its shadows are so soft that its irradiance changes slowly from place to place: a sky, but one with a sun in its
- * picture. */
+/* Whether its shadows are so soft that its irradiance changes slowly from place to place: a sky,
+ * but one with a sun in its picture. */
 bool light_is_soft(const struct light *light);
 
 /* The bounds of a light that is not afar, of triangle `triangle` of one that is a mesh. */
@@ -191,19 +191,21 @@ struct light_sample {
     float pdf;         /* 0: the light is a delta */
 };
 
-/* For each of n positions chooses a point of the light by two numbers in [0,1), and tells what it gives there
- * if nothing is between. Where that is nothing, the weight is 0. `normals`: unit, of surfaces to which light
- * counts by the cosine and nothing else, and 0 for others; NULL: of none. Where one is given, a sky of one radiance is
- * looked at by that cosine, and light_pdf does not tell the density. */
+/* For each of n positions chooses a point of the light by two numbers in [0,1), and tells what it
+ * gives there if nothing is between. Where that is nothing, the weight is 0. `normals`: unit, of
+ * surfaces to which light counts by the cosine and nothing else, and 0 for others; NULL: of none.
+ * Where one is given, a sky of one radiance is looked at by that cosine, and light_pdf does not
+ * tell the density. */
 void light_sample(const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
                   const float (*numbers)[2], size_t n, struct light_sample *samples);
 
-/* One sample of one triangle of a mesh that shines; its density is that of the whole mesh, see light_pdf. */
+/* One sample of one triangle of a mesh that shines; its density is that of the whole mesh, see
+ * light_pdf. */
 void light_sample_triangle(const struct light *light, size_t triangle, ps_vec3 position,
                            const float numbers[2], struct light_sample *sample);
 
-/* The normal of the light's surface, on the side that is seen, at what light_sample chose by the two numbers; 0
- * where it has no surface. */
+/* The normal of the light's surface, on the side that is seen, at what light_sample chose by the
+ * two numbers; 0 where it has no surface. */
 ps_vec3 light_sample_normal(const struct light *light, ps_vec3 position, const float numbers[2],
                             const struct light_sample *sample);
 
@@ -217,13 +219,15 @@ float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, 
 /* That of a sun or a sky for a surface whose normal light_sample is given. */
 float light_pdf_by_normal(const struct light *light, ps_vec3 normal, ps_vec3 direction);
 
-/* The density by which light_emit sends a ray from a point of the light through an area across it at `position`,
- * 1/m^2, over the density by which light_sample draws the point there. `direction`, `distance`: of the point, seen from
- * there; `normal`: of its front. 0 where it does not shine there. */
+/* The density by which light_emit sends a ray from a point of the light through an area across it
+ * at `position`, 1/m^2, over the density by which light_sample draws the point there. `direction`,
+ * `distance`: of the point, seen from there; `normal`: of its front. 0 where it does not shine
+ * there. */
 float light_arrival(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,
                     ps_vec3 normal);
 
-/* The normal of the front of a point of the light, given that on the side that is seen from `position`. */
+/* The normal of the front of a point of the light, given that on the side that is seen from
+ * `position`. */
 ps_vec3 light_front(const struct light *light, ps_vec3 position, ps_vec3 seen);
 
 #endif

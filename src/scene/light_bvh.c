@@ -24,7 +24,8 @@ static inline int32_t place_from(const struct draw *draw, double at)
     return whole + ((double)whole < number);
 }
 
-/* Cuts shares down to `most`, and gives what is cut to the others, as long as that makes shares too large. */
+/* Cuts shares down to `most`, and gives what is cut to the others, as long as that makes shares too
+ * large. */
 static void limit_shares(const float *importance, const float *most, int count, double length,
                          double *shares)
 {
@@ -48,8 +49,8 @@ static void limit_shares(const float *importance, const float *most, int count, 
     }
 }
 
-/* Shares `length` among children by importance, but no child gets more than it has lights: what is above that goes to the
- * others. What none of them can take is left. */
+/* Shares `length` among children by importance, but no child gets more than it has lights: what is
+ * above that goes to the others. What none of them can take is left. */
 static inline void share_length(const float *importance, const float *most, int count,
                                 double length, double *shares)
 {
@@ -102,7 +103,8 @@ static size_t choose_triangles(const struct draw *draw, uint32_t light, const st
     return count;
 }
 
-/* What is drawn, and what is still to be looked into. Each entry has a place at least, so there are no more than places. */
+/* What is drawn, and what is still to be looked into. Each entry has a place at least, so there are
+ * no more than places. */
 struct drawn {
     struct light_choice *choices;
     size_t count;

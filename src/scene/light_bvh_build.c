@@ -1,7 +1,8 @@
 /* light_bvh_build.c: makes a light BVH.
  *
- * From the top: of 12 bins along each axis the split with the least cost of its two halves (light_cluster.h), the surface
- * area heuristic with orientations. A node is split until it has eight children, the costliest child first.
+ * From the top: of 12 bins along each axis the split with the least cost of its two halves
+ * (light_cluster.h), the surface area heuristic with orientations. A node is split until it has
+ * eight children, the costliest child first.
  */
 #include "scene/light_bvh_nodes.h"
 
@@ -121,7 +122,8 @@ static struct group make_group(struct item *items, size_t count)
     return group;
 }
 
-/* Splits the items in up to LIGHT_LANES groups, the costliest first; those of at most `smallest` are not split. */
+/* Splits the items in up to LIGHT_LANES groups, the costliest first; those of at most `smallest`
+ * are not split. */
 static int make_groups(struct item *items, size_t count, size_t smallest, uint32_t depth,
                        struct group groups[LIGHT_LANES])
 {

@@ -88,8 +88,8 @@ void light_sky_sample(const struct light_sky *sky, ps_vec3 normal, const float u
 float light_sky_pdf(const struct light_sky *sky, ps_vec3 normal, ps_vec3 direction);
 
 /* Emission and sampling that surfaces share: density by solid angle of a point chosen uniformly
- * over an area, seen from `distance` at `cosine` to its normal; 0 where that is not positive. Compilers make
- * vectors of it. */
+ * over an area, seen from `distance` at `cosine` to its normal; 0 where that is not positive.
+ * Compilers make vectors of it. */
 static inline float light_pdf_of_area(float area, float distance, float cosine)
 {
     float pdf = distance * distance / (cosine * area);
@@ -97,8 +97,8 @@ static inline float light_pdf_of_area(float area, float distance, float cosine)
     return any ? pdf : 0.0f;
 }
 
-/* light_arrival of a point of a surface that sends rays out by their cosine, of `sides` sides, where both ways of drawing
- * points are even over the area. */
+/* light_arrival of a point of a surface that sends rays out by their cosine, of `sides` sides,
+ * where both ways of drawing points are even over the area. */
 static inline float light_arrival_by_cosine(float sides, float distance, float cosine)
 {
     float arrival = cosine / (sides * PS_PI * distance * distance);

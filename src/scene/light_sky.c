@@ -131,7 +131,8 @@ static ps_rgb mean_of_cell(const struct light_sky *sky, struct row_shares shares
     return ps_rgb_add(mean, ps_rgb_scale(below, shares.below));
 }
 
-/* Fills the weights of the cells; sets the radiance integrated over all directions, and the solid angle. */
+/* Fills the weights of the cells; sets the radiance integrated over all directions, and the solid
+ * angle. */
 static void weigh_cells(struct light_sky *sky, float *weights)
 {
     double red = 0.0, green = 0.0, blue = 0.0, squares = 0.0;

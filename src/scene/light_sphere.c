@@ -110,7 +110,8 @@ float light_sphere_pdf(const struct light_sphere *sphere, ps_vec3 position, ps_v
     return is_front && versine > 0.0f ? 1.0f / (2.0f * PS_PI * versine) : 0.0f;
 }
 
-/* From outside: cos / (pi * 4 pi r^2) is the density of the ray, d^2 / (2 pi versine cos) that of the point. */
+/* From outside: cos / (pi * 4 pi r^2) is the density of the ray, d^2 / (2 pi versine cos) that of
+ * the point. */
 float light_sphere_arrival(const struct light_sphere *sphere, ps_vec3 position, ps_vec3 direction,
                            float distance, ps_vec3 normal)
 {

@@ -10,7 +10,8 @@
  * error is below 1e-4. */
 #define PANELS 4096
 
-/* Radians: what an angle is taken to be larger by, and the widest edge whose importance may fall off by its cosine. */
+/* Radians: what an angle is taken to be larger by, and the widest edge whose importance may fall
+ * off by its cosine. */
 #define ROUNDING 1e-3f
 #define WIDEST_EDGE 1.4f
 
@@ -98,8 +99,8 @@ ps_result light_spot_create(const struct light_description *description, struct 
     return set_intensity(description, spot, error);
 }
 
-/* A spot sends its light at no more than `falloff` from its axis. A point where it has none any more may round to either
- * side. */
+/* A spot sends its light at no more than `falloff` from its axis. A point where it has none any
+ * more may round to either side. */
 struct light_cluster light_spot_cluster(const struct light_spot *spot)
 {
     float inner = acosf(fminf(fmaxf(spot->cos_radius, -1.0f), 1.0f));
@@ -161,7 +162,8 @@ bool light_spot_sample(const struct light_spot *spot, ps_vec3 position, struct l
     return true;
 }
 
-/* By the density of the direction: even over the cone, or (t + 1) c^t / (2 pi (1 - c_min^(t+1))). */
+/* By the density of the direction: even over the cone, or (t + 1) c^t / (2 pi (1 -
+ * c_min^(t+1))). */
 float light_spot_arrival(const struct light_spot *spot, ps_vec3 direction, float distance)
 {
     float cosine = fminf(fmaxf(-ps_dot(direction, spot->axis), -1.0f), 1.0f);

@@ -174,8 +174,8 @@ ps_rgb light_surface_power(const struct light_surface *surface)
     return ps_rgb_multiply(plain_power(surface), surface->mean);
 }
 
-/* The least that the pattern in a triangle is taken to be: a part of the mean of the light, and a number, since the points
- * that tell both may miss all that shines. */
+/* The least that the pattern in a triangle is taken to be: a part of the mean of the light, and a
+ * number, since the points that tell both may miss all that shines. */
 #define LEAST_PATTERN 0.05f
 #define LEAST_RADIANCE 1e-3f
 #define TRIANGLE_EDGE 2
@@ -278,8 +278,8 @@ float light_surface_arrival(const struct light_surface *surface, ps_vec3 directi
                                    cosine_at_light(direction, normal, surface->both_sides));
 }
 
-/* Points of the light, seen from as many places at once: a point costs four divisions and a root, each of which
- * waits for the one before. */
+/* Points of the light, seen from as many places at once: a point costs four divisions and a root,
+ * each of which waits for the one before. */
 #define LANES 16
 
 struct sights {

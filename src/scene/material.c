@@ -2,7 +2,8 @@
 
 #include <assert.h>
 
-/* --- construction ------------------------------------------------------------------------------ */
+/* --- construction
+ * ------------------------------------------------------------------------------ */
 
 /* What a component is of its material. */
 struct portion {
@@ -100,8 +101,8 @@ static bool has_opacity(const struct material_description *from)
            from->opacity.colors[0].r < (from->blended ? 1.0f : 0.5f);
 }
 
-/* What the pigments of the material, and of those that it is mixed of, want to be looked up by. A mesh file's materials
- * never want both, nor have they patterns. */
+/* What the pigments of the material, and of those that it is mixed of, want to be looked up by. A
+ * mesh file's materials never want both, nor have they patterns. */
 static enum material_lookup lookup_of(const struct scene_description *description, size_t index)
 {
     struct material_description *from = &description->materials[index];
@@ -119,8 +120,8 @@ static enum material_lookup lookup_of(const struct scene_description *descriptio
     return lookup;
 }
 
-/* Of a material, and of those that it is mixed of. Where there are both, patterns are looked up at points; so are those of bumps, which
- * shade a surface that would be smooth in the mean. */
+/* Of a material, and of those that it is mixed of. Where there are both, patterns are looked up at
+ * points; so are those of bumps, which shade a surface that would be smooth in the mean. */
 static enum material_filter filter_of(const struct scene_description *description, size_t index)
 {
     struct material_description *from = &description->materials[index];

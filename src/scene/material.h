@@ -7,19 +7,21 @@
  *     glossy      such a reflector as a coat over Lambert
  *     dielectric  the smooth surface of glass or water: mirrors and refracts
  *
- * What a coat reflects, its base does not get: the base's albedo is what users state times 1 - E(o),
- * with E(o) the coat's albedo towards the eye. (A symmetric model would also darken by the direction
- * of incidence. Then reflected light would no longer be albedo / pi * irradiance, which splatting
- * rests on; this one never gives an eye more light than there is.)
+ * What a coat reflects, its base does not get: the base's albedo is what users state times 1 -
+ * E(o), with E(o) the coat's albedo towards the eye. (A symmetric model would also darken by the
+ * direction of incidence. Then reflected light would no longer be albedo / pi * irradiance, which
+ * splatting rests on; this one never gives an eye more light than there is.)
  *
  * A path that meets a surface follows one lobe, chosen by albedo.
  *
- * Opacity: below 1/2 there is no surface. A blended material rather has holes finer than anything, whose share of the
- * area is 1 - opacity: each ray decides whether it meets the surface by a number of its own, a hash of where it hits
- * (stochastic transparency, Enderton et al. 2010, with the hash of Wyman and McGuire 2017, "Hashed alpha testing").
- * Hence the same ray always finds the same, and means over rays and passes are those of the opacity; but two rays to one
- * point, whose hits differ in the last bits, need not agree. Where light is stored with the surface, as photons are, and
- * looked up by a ray that met it as well, the opacity counts twice (psd(5), MESH FILES, names the estimators).
+ * Opacity: below 1/2 there is no surface. A blended material rather has holes finer than anything,
+ * whose share of the area is 1 - opacity: each ray decides whether it meets the surface by a number
+ * of its own, a hash of where it hits (stochastic transparency, Enderton et al. 2010, with the hash
+ * of Wyman and McGuire 2017, "Hashed alpha testing"). Hence the same ray always finds the same, and
+ * means over rays and passes are those of the opacity; but two rays to one point, whose hits differ
+ * in the last bits, need not agree. Where light is stored with the surface, as photons are, and
+ * looked up by a ray that met it as well, the opacity counts twice (psd(5), MESH FILES, names the
+ * estimators).
  */
 #ifndef SCENE_MATERIAL_H
 #define SCENE_MATERIAL_H
@@ -36,11 +38,12 @@ enum component_kind {
     COMPONENT_DIELECTRIC
 };
 
-/* What hits' texture_point holds: the point in the shape's space, or what the mesh has for each vertex. */
+/* What hits' texture_point holds: the point in the shape's space, or what the mesh has for each
+ * vertex. */
 enum material_lookup { LOOKUP_POINT, LOOKUP_COLORS, LOOKUP_SECOND_UV };
 
-/* What is looked up as its mean over ray cones (ray_cone.h), whose widths are kept in the coordinates of that. Nothing of a material
- * with holes, whose colour must not mix in. */
+/* What is looked up as its mean over ray cones (ray_cone.h), whose widths are kept in the
+ * coordinates of that. Nothing of a material with holes, whose colour must not mix in. */
 enum material_filter { FILTER_NOTHING, FILTER_IMAGES, FILTER_PATTERNS };
 
 enum component_sharing {
@@ -84,8 +87,8 @@ struct material {
     struct pigment mixing;
 };
 
-/* Builds material `index`; mixes are resolved. Textures are borrowed. PS_ERROR_INVALID where a mix has
- * too many components. */
+/* Builds material `index`; mixes are resolved. Textures are borrowed. PS_ERROR_INVALID where a mix
+ * has too many components. */
 ps_result material_create(const struct scene_description *description, size_t index,
                           const struct texture *textures, struct material *material,
                           struct error *error);
@@ -100,7 +103,8 @@ void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *mat
 ps_vec3 material_texture_point(const struct material *material, const struct shape *shape,
                                const struct shape_point *point, ps_vec3 patterns);
 
-/* Where opacity is looked up: of materials that look up colours, the point is three times their alpha. */
+/* Where opacity is looked up: of materials that look up colours, the point is three times their
+ * alpha. */
 struct opacity_place {
     ps_vec3 texture_point;
     float uv[2];
@@ -116,8 +120,8 @@ float material_coverage(const struct material *material, const struct opacity_pl
 ps_rgb material_albedo(const struct material *material, const struct microfacet_table *table,
                        const ps_hit *hit, ps_vec3 ray_direction);
 
-/* Share of the light from all around that the surface sends to the ray's origin, by all its lobes; what glass lets
- * through counts. */
+/* Share of the light from all around that the surface sends to the ray's origin, by all its lobes;
+ * what glass lets through counts. */
 ps_rgb material_reflectance(const struct material *material, const struct microfacet_table *table,
                             const ps_hit *hit, ps_vec3 ray_direction);
 
@@ -127,16 +131,17 @@ ps_rgb material_emission(const struct material *material, const ps_hit *hit);
 /* Whether it holds glass, which mirrors or lets through by chance. */
 bool material_refracts(const struct material *material);
 
-/* A camera path as one of `paths` of its pixel that have chosen alike so far, and whose numbers of [0, 1) are as evenly
- * spaced. */
+/* A camera path as one of `paths` of its pixel that have chosen alike so far, and whose numbers of
+ * [0, 1) are as evenly spaced. */
 struct stratum {
     float number;
     uint32_t paths;
 };
 
-/* See ps_host.sample_bsdf. `stratum`, if not NULL, chooses in place of sample[3] by what the surface scatters, as long as
- * there are several paths, of which whole numbers go each way; and becomes that of the path that goes on. The pdf remains that
- * of a path alone, by which light that was asked is weighed against light that was hit (material_gloss). */
+/* See ps_host.sample_bsdf. `stratum`, if not NULL, chooses in place of sample[3] by what the
+ * surface scatters, as long as there are several paths, of which whole numbers go each way; and
+ * becomes that of the path that goes on. The pdf remains that of a path alone, by which light that
+ * was asked is weighed against light that was hit (material_gloss). */
 ps_bsdf_sample material_scatter(const struct material *material,
                                 const struct microfacet_table *table, ps_direction direction,
                                 const ps_ray *ray, const ps_hit *hit, const float sample[4],
@@ -151,8 +156,9 @@ ps_bsdf_value material_evaluate(const struct material *material,
 float material_roughness(const struct material *material, const ps_hit *hit);
 
 /* Radiance towards the ray's origin by its rough reflectors for irradiance 1 across the beam that
- * comes from unit direction `in`: f * cosine, weighed against material_scatter's sampling for a light
- * whose own sampling has density `light_pdf` (0: scattering could not find it; power heuristic). */
+ * comes from unit direction `in`: f * cosine, weighed against material_scatter's sampling for a
+ * light whose own sampling has density `light_pdf` (0: scattering could not find it; power
+ * heuristic). */
 ps_rgb material_gloss(const struct material *material, const struct microfacet_table *table,
                       const ps_ray *ray, const ps_hit *hit, ps_vec3 in, float light_pdf);
 

@@ -78,8 +78,8 @@ ps_rgb microfacet_reflect(float roughness, ps_rgb f0, ps_vec3 out, ps_vec3 in)
                         microfacet_pdf(roughness, out, in));
 }
 
-/* Means over directions of incidence of the shares that F0 and its complement weigh. The first number
- * is 1 - (1 - t)^2, which puts more points to the steepest facets, whose light is lost. */
+/* Means over directions of incidence of the shares that F0 and its complement weigh. The first
+ * number is 1 - (1 - t)^2, which puts more points to the steepest facets, whose light is lost. */
 static void integrate(float roughness, float cosine, float *scale, float *bias)
 {
     ps_vec3 out = {sqrtf(ps_max(1.0f - square(cosine), 0.0f)), 0.0f, cosine};

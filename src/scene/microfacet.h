@@ -7,8 +7,8 @@
  *
  *     f = f_single * (1 + F0 * (1 - E(o)) / E(o)),
  *
- * with E(o) the single-bounce albedo of perfectly reflecting facets towards o. The factor depends on
- * the direction to the eye alone, which makes f not quite symmetric: light paths must use the
+ * with E(o) the single-bounce albedo of perfectly reflecting facets towards o. The factor depends
+ * on the direction to the eye alone, which makes f not quite symmetric: light paths must use the
  * direction that they leave in, as psplat's do.
  *
  * Directions are unit vectors in a frame whose z is the normal, on its side. Roughness is 0..1; the
@@ -25,16 +25,17 @@
 
 #define MICROFACET_TABLE_SIZE 32
 
-/* Albedo of the single-bounce model over cosine and roughness, where reflectance at normal incidence
- * is F0: F0 * scale + bias (Karis 2013). */
+/* Albedo of the single-bounce model over cosine and roughness, where reflectance at normal
+ * incidence is F0: F0 * scale + bias (Karis 2013). */
 struct microfacet_table {
     bool is_known[MICROFACET_TABLE_SIZE];                      /* whether that row is filled */
     float scale[MICROFACET_TABLE_SIZE][MICROFACET_TABLE_SIZE]; /* [roughness][cosine] */
     float bias[MICROFACET_TABLE_SIZE][MICROFACET_TABLE_SIZE];
 };
 
-/* Fills the rows that roughnesses from `least` to `most` are looked up in, but for those that are known, by quadrature: two
- * milliseconds each. Other roughnesses may not be looked up. The table begins with all 0. */
+/* Fills the rows that roughnesses from `least` to `most` are looked up in, but for those that are
+ * known, by quadrature: two milliseconds each. Other roughnesses may not be looked up. The table
+ * begins with all 0. */
 void microfacet_tabulate(struct microfacet_table *table, float least, float most);
 
 /* The share of light from all around that is reflected to the cosine `out`. */

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- encoding -------------------------------------------------------------------------------------- */
+/* --- encoding
+ * -------------------------------------------------------------------------------------- */
 
 #define BINS 65536
 
@@ -30,7 +31,8 @@ static void prepare(struct encoder *encoder, const float *value_of, uint32_t las
     }
 }
 
-/* The code whose value is nearest; of two as near the even one, since means of few codes often lie halfway. */
+/* The code whose value is nearest; of two as near the even one, since means of few codes often lie
+ * halfway. */
 static uint32_t encode(const struct encoder *encoder, float value)
 {
     const float *value_of = encoder->value_of;
@@ -42,9 +44,11 @@ static uint32_t encode(const struct encoder *encoder, float value)
     return code + (code < encoder->last && beyond == 0.0f && code % 2 == 1);
 }
 
-/* --- halving --------------------------------------------------------------------------------------- */
+/* --- halving
+ * --------------------------------------------------------------------------------------- */
 
-/* What a texel covers of a row or column of the level before: two texels, or three, of which the outer ones in part. */
+/* What a texel covers of a row or column of the level before: two texels, or three, of which the
+ * outer ones in part. */
 struct cover {
     uint32_t first, count;
     float weights[3];
@@ -67,8 +71,8 @@ static struct cover cover_of(uint32_t texel, uint32_t from, uint32_t to)
     return cover;
 }
 
-/* What is known of the next lines of a level: sums over those of the level before, whose width they have, and room for a
- * line that is done. Two lines at most share one of the level before. */
+/* What is known of the next lines of a level: sums over those of the level before, whose width they
+ * have, and room for a line that is done. Two lines at most share one of the level before. */
 struct coming {
     float *sums[2];
     void *samples;

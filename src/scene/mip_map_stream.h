@@ -1,7 +1,7 @@
 /* mip_map_stream.h: the levels of a picture (mip_map.h) that comes line by line.
  *
- * A line of any level is handed on as soon as it is known, those of one level from the top, so that no level has to lie in
- * memory: what is kept are sums for two lines of each.
+ * A line of any level is handed on as soon as it is known, those of one level from the top, so that
+ * no level has to lie in memory: what is kept are sums for two lines of each.
  */
 #ifndef SCENE_MIP_MAP_STREAM_H
 #define SCENE_MIP_MAP_STREAM_H
@@ -15,7 +15,8 @@ typedef ps_result (*mip_map_take)(void *user, uint32_t level, uint32_t line, con
 /* One thread. */
 struct mip_map_stream;
 
-/* Of a texture whose tables and sizes of levels are known; it is borrowed. NULL with PS_ERROR_MEMORY's message. */
+/* Of a texture whose tables and sizes of levels are known; it is borrowed. NULL with
+ * PS_ERROR_MEMORY's message. */
 struct mip_map_stream *mip_map_open(const struct texture *texture, mip_map_take take, void *user,
                                     struct error *error);
 ps_result mip_map_add_line(struct mip_map_stream *stream, const void *samples, struct error *error);

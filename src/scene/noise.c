@@ -133,14 +133,16 @@ static ps_vec3 turn_back(ps_vec3 g)
     };
 }
 
-/* What is left of noise with features 1 wide in its mean over a square of that width, by regression on the value in the middle. */
+/* What is left of noise with features 1 wide in its mean over a square of that width, by regression
+ * on the value in the middle. */
 static float left_over(float width)
 {
     float rest = 1.0f - 0.25f * width * width;
     return rest > 0.0f ? rest * rest : 0.0f;
 }
 
-/* Their sum, to be divided by the deviation. `gradients`: of each octave, before it is turned back, or NULL. */
+/* Their sum, to be divided by the deviation. `gradients`: of each octave, before it is turned back,
+ * or NULL. */
 static inline float add_octaves(ps_vec3 point, int32_t octaves, float width, uint32_t seed,
                                 ps_vec3 *gradients, float *deviation)
 {
@@ -169,8 +171,8 @@ float noise_fractal(ps_vec3 point, int32_t octaves, float width, uint32_t seed)
     return sum / deviation;
 }
 
-/* Octaves are half as high as the one before and twice as fine: all are as steep, each turned back as often as its lattice was
- * turned. */
+/* Octaves are half as high as the one before and twice as fine: all are as steep, each turned back
+ * as often as its lattice was turned. */
 float noise_fractal_gradient(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 *gradient)
 {
     ps_vec3 gradients[NOISE_OCTAVES_LIMIT], total = {0, 0, 0};

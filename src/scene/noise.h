@@ -29,11 +29,12 @@ float noise_value(ps_vec3 point, uint32_t seed);
  * them. Within +-2 * NOISE_LIMIT. Each octave's lattice is turned against the one before, and the
  * first against the axes, so that nothing shows the lattice along them.
  *
- * `width` >= 0: the mean over about so wide a part of a surface is wanted, and octaves with finer features fade (Norton,
- * Rockwood and Skolmoski 1982, "Clamping"); 0: the value at the point. */
+ * `width` >= 0: the mean over about so wide a part of a surface is wanted, and octaves with finer
+ * features fade (Norton, Rockwood and Skolmoski 1982, "Clamping"); 0: the value at the point. */
 float noise_fractal(ps_vec3 point, int32_t octaves, float width, uint32_t seed);
 
-/* That of a point, and its gradient: hardly more work than the value, of which differences would take six. */
+/* That of a point, and its gradient: hardly more work than the value, of which differences would
+ * take six. */
 float noise_fractal_gradient(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 *gradient);
 
 /* Three independent fractal noises. */

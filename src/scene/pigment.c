@@ -148,7 +148,8 @@ static float width_in_pattern(const struct pigment *pigment, float log_width)
     return exp2f(log_width + pigment->log_scale);
 }
 
-/* How much of colors[1] there is at a point of the pattern's space, where `width` is the cone's there. */
+/* How much of colors[1] there is at a point of the pattern's space, where `width` is the cone's
+ * there. */
 static float pattern_share(const struct pigment *pigment, ps_vec3 p, float width)
 {
     switch (pigment->kind) {

@@ -24,8 +24,8 @@
 #include "scene/texture.h"
 #include <math.h>
 
-/* Instead of the point where patterns are looked up, a surface may give what its mesh holds for each vertex
- * (material.h): the colour, or the second texture coordinates in x and y. */
+/* Instead of the point where patterns are looked up, a surface may give what its mesh holds for
+ * each vertex (material.h): the colour, or the second texture coordinates in x and y. */
 
 #define PATTERN_OFFSET 0x1p-10f /* of a cube, or of the gradient's length */
 #define TURBULENCE_OCTAVES 6
@@ -63,8 +63,9 @@ static inline bool pigment_is_constant(const struct pigment *pigment)
 ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2],
                     float log_width);
 
-/* pigment_color, images and noise as their mean over what a ray cone covers (ray_cone.h); log_width: the binary logarithm of
- * its width, for images by the surface's (u, v), for patterns by points; -INFINITY for a point. */
+/* pigment_color, images and noise as their mean over what a ray cone covers (ray_cone.h);
+ * log_width: the binary logarithm of its width, for images by the surface's (u, v), for patterns by
+ * points; -INFINITY for a point. */
 static inline ps_rgb pigment_filter(const struct pigment *pigment, ps_vec3 point, const float uv[2],
                                     float log_width)
 {
@@ -91,14 +92,16 @@ static inline float pigment_number(const struct pigment *pigment, ps_vec3 point,
 }
 
 /* How pigment_number changes with the point, per unit of length: of procedural kinds; 0 for colours
- * and images. Of noise by its derivatives; of the others by central differences over about 1/50 of the pattern's unit: the steps
- * of a checker so get slopes of that width. */
+ * and images. Of noise by its derivatives; of the others by central differences over about 1/50 of
+ * the pattern's unit: the steps of a checker so get slopes of that width. */
 ps_vec3 pigment_gradient(const struct pigment *pigment, ps_vec3 point);
 
-/* Where an image is looked up: by the surface's (u, v), or the point where the pigment has it so. */
+/* Where an image is looked up: by the surface's (u, v), or the point where the pigment has it
+ * so. */
 void pigment_place(const struct pigment *pigment, ps_vec3 point, const float uv[2], float place[2]);
 
-/* The derivatives of the position by an image's coordinates, from those by the surface's; 0 where these do not tell. */
+/* The derivatives of the position by an image's coordinates, from those by the surface's; 0 where
+ * these do not tell. */
 void pigment_tangents(const struct pigment *pigment, ps_vec3 *by_u, ps_vec3 *by_v);
 
 /* How pigment_number changes with u and v: of images; 0 for the other kinds. By central differences

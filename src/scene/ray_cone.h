@@ -1,9 +1,11 @@
 /* ray_cone.h: how much of a picture a hit stands for.
  *
- * A ray that is one of few in its solid angle stands for a cone around it (Amanatides 1984; Akenine-Moller et al. 2019,
- * "Texture level of detail strategies for real-time ray tracing"), and its hit for the part of the surface that the cone
- * covers. Pictures are looked up as their mean over that. Its width in texture coordinates is kept, in eighths of its binary logarithm,
- * in the bits of ps_hit.flags that are psplat's own, so that whatever looks at the hit's colours later has it.
+ * A ray that is one of few in its solid angle stands for a cone around it (Amanatides 1984;
+ * Akenine-Moller et al. 2019, "Texture level of detail strategies for real-time ray tracing"), and
+ * its hit for the part of the surface that the cone covers. Pictures are looked up as their mean
+ * over that. Its width in texture coordinates is kept, in eighths of its binary logarithm, in the
+ * bits of ps_hit.flags that are psplat's own, so that whatever looks at the hit's colours later has
+ * it.
  */
 #ifndef SCENE_RAY_CONE_H
 #define SCENE_RAY_CONE_H
@@ -16,7 +18,8 @@
 #define RAY_CONE_LEAST (-22.0f)
 #define RAY_CONE_LAST 255.0f /* 0: a point */
 
-/* The bits for the binary logarithm of a width; -INFINITY: a point, as all below RAY_CONE_LEAST are. */
+/* The bits for the binary logarithm of a width; -INFINITY: a point, as all below RAY_CONE_LEAST
+ * are. */
 static inline uint32_t ray_cone_flags(float log_width)
 {
     float steps = roundf((log_width - RAY_CONE_LEAST) * RAY_CONE_STEPS);

@@ -1,7 +1,8 @@
 /* repeated_meshes.c: which meshes repeat, and their groups.
  *
- * An object can be an instance where its material looks the same in the mesh's own space as in the scene's: patterns and
- * heights of bump maps are of the scene, and normal maps keep their angles where the placement does.
+ * An object can be an instance where its material looks the same in the mesh's own space as in the
+ * scene's: patterns and heights of bump maps are of the scene, and normal maps keep their angles
+ * where the placement does.
  */
 #include "scene/repeated_meshes.h"
 

@@ -1,4 +1,5 @@
-/* scene.h: a scene ready to be traced: shapes, groups and their instances, materials, lights, cameras.
+/* scene.h: a scene ready to be traced: shapes, groups and their instances, materials, lights,
+ * cameras.
  *
  * Made once from a description and constant afterwards, so every thread may read it. Shapes come in
  * this order: those of the world, in world space, then those of each group, in the group's space.
@@ -72,14 +73,15 @@ struct scene {
     float surface_offset; /* see ps_pass */
 };
 
-/* PS_OK, or a message, and in `where` (may be NULL) what it is about; release it with scene_release.
- * Where triangles were dropped, `where` is the first object that lost some. A line of 0 is no place.
- * Reads texture files. */
+/* PS_OK, or a message, and in `where` (may be NULL) what it is about; release it with
+ * scene_release. Where triangles were dropped, `where` is the first object that lost some. A line
+ * of 0 is no place. Reads texture files. */
 ps_result scene_create(const struct scene_description *description, struct scene *scene,
                        struct origin *where, struct error *error);
 void scene_release(struct scene *scene);
 
-/* The description's first camera with what it had to find (camera_frame.h) in a scene made of it. */
+/* The description's first camera with what it had to find (camera_frame.h) in a scene made of
+ * it. */
 ps_result scene_find_camera(const struct scene_description *description, const struct scene *scene,
                             struct camera_description *camera, struct error *error);
 
@@ -93,8 +95,8 @@ const struct shape *scene_shape_of(const struct scene *scene, uint32_t object);
 size_t scene_bytes(const struct scene *scene);
 double scene_bytes_to_come(const struct scene *scene);
 
-/* Whether points ask some of the lights, since there are more than twice light_choices: to choose one costs about as
- * much as to ask it. */
+/* Whether points ask some of the lights, since there are more than twice light_choices: to choose
+ * one costs about as much as to ask it. */
 bool scene_chooses_lights(const struct scene *scene);
 
 /* Whether normals of some surface are smoothed or bent. */
@@ -112,15 +114,16 @@ bool scene_has_delta_lamps(const struct scene *scene);
 /* Whether asking the lights again gives another answer. */
 bool scene_samples_lights(const struct scene *scene);
 
-/* Whether a light's shadows have edges and no noise to speak of: every point asks it, and it is a point, a spot or a sun of
- * at most five degrees. */
+/* Whether a light's shadows have edges and no noise to speak of: every point asks it, and it is a
+ * point, a spot or a sun of at most five degrees. */
 bool scene_light_casts_hard_shadows(const struct scene *scene, size_t light);
 
-/* Whether the scene has such lights, and noise, of others or within a sun's penumbra, that would hide those edges. */
+/* Whether the scene has such lights, and noise, of others or within a sun's penumbra, that would
+ * hide those edges. */
 bool scene_has_hard_shadows_apart(const struct scene *scene);
 
-/* Chooses a light by power with *u in [0,1), which is rescaled so that it can be used again; returns
- * its index and probability. Needs light_count > 0. */
+/* Chooses a light by power with *u in [0,1), which is rescaled so that it can be used again;
+ * returns its index and probability. Needs light_count > 0. */
 size_t scene_choose_light(const struct scene *scene, float *u, float *probability);
 
 #endif

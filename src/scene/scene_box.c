@@ -55,7 +55,8 @@ struct box scene_box(const struct scene_description *description, const struct s
     return box;
 }
 
-/* --- what is worth a look ------------------------------------------------------------------------- */
+/* --- what is worth a look
+ * ------------------------------------------------------------------------- */
 
 /* From the lowest to the highest point along a unit vector. */
 struct range {

@@ -1,5 +1,5 @@
-/* scene_digest.c: member by member, since structs have gaps and pointers; tests/unit/test_scene_digest.c finds a
- * member that was forgotten.
+/* scene_digest.c: member by member, since structs have gaps and pointers;
+ * tests/unit/test_scene_digest.c finds a member that was forgotten.
  */
 #include "scene/scene_digest.h"
 

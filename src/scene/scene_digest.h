@@ -1,7 +1,7 @@
 /* scene_digest.h: whether two scenes are the same, part by part.
  *
- * By what was read, not by how it was written: names, comments, and where files lie do not count; every number
- * of the description does, and so does every texel and vertex.
+ * By what was read, not by how it was written: names, comments, and where files lie do not count;
+ * every number of the description does, and so does every texel and vertex.
  */
 #ifndef SCENE_SCENE_DIGEST_H
 #define SCENE_SCENE_DIGEST_H

@@ -27,7 +27,8 @@ static void measure(struct scene *scene)
     scene->radius = 0.5f * ps_length(ps_subtract(box.high, box.low));
 }
 
-/* --- shapes -------------------------------------------------------------------------------------- */
+/* --- shapes
+ * -------------------------------------------------------------------------------------- */
 
 /* Brightness of a texture, in rows from the top. */
 static float *sample_heights(struct assembly *assembly, size_t texture,
@@ -83,7 +84,8 @@ static bool asks_for_box(const struct scene_description *description)
     return false;
 }
 
-/* The objects of the world that are shapes, numbered in their order: planes that come last or the others. */
+/* The objects of the world that are shapes, numbered in their order: planes that come last or the
+ * others. */
 static ps_result add_world(struct assembly *assembly, bool last)
 {
     const struct scene_description *description = assembly->description;
@@ -208,7 +210,8 @@ static void number_objects(struct scene *scene)
     }
 }
 
-/* --- memory -------------------------------------------------------------------------------------- */
+/* --- memory
+ * -------------------------------------------------------------------------------------- */
 
 /* The ray tracer's tree while it is built, for each triangle of a large mesh; 64 of it stay. */
 #define TREE_BYTES 80.0
@@ -219,7 +222,8 @@ static double mesh_bytes(const struct mesh_description *mesh)
            (double)mesh->triangle_count * (sizeof *mesh->triangles + TREE_BYTES);
 }
 
-/* Of a list of objects: what their meshes will take, and how many triangles they have; `most`: the largest one. */
+/* Of a list of objects: what their meshes will take, and how many triangles they have; `most`: the
+ * largest one. */
 struct mesh_sums {
     double bytes, triangles;
     const struct object_description *most;
@@ -243,8 +247,8 @@ static void add_meshes(const struct scene_description *description,
     }
 }
 
-/* Whether the meshes, which the description still has, fit in a second time, with the ray tracer's tree: a system that
- * lends more memory than it has would end the process later. */
+/* Whether the meshes, which the description still has, fit in a second time, with the ray tracer's
+ * tree: a system that lends more memory than it has would end the process later. */
 static ps_result check_memory(struct assembly *assembly)
 {
     const struct scene_description *description = assembly->description;

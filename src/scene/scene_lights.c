@@ -97,7 +97,8 @@ static ps_result add_described(struct assembly *assembly, const struct light_des
     return PS_OK;
 }
 
-/* --- what shines by its material ---------------------------------------------------------------- */
+/* --- what shines by its material
+ * ---------------------------------------------------------------- */
 
 /* Emission that varies over a mesh, looked up where its surface is. */
 struct emission_pattern {
@@ -248,8 +249,8 @@ static ps_result add_emissive(struct assembly *assembly)
 
 /* --- choosing --------------------------------------------------------------------------------- */
 
-/* Lights share the light paths by power, the sum of its red, green and blue; a scene whose lights are all dark
- * shares them evenly. */
+/* Lights share the light paths by power, the sum of its red, green and blue; a scene whose lights
+ * are all dark shares them evenly. */
 static ps_result share_paths(struct assembly *assembly)
 {
     struct scene *scene = assembly->scene;

@@ -6,7 +6,8 @@
 #include <psplat/math.h>
 #include <stdlib.h>
 
-/* Of what a file of its size would hardly hold, as a flat WebP: many small files must not take all memory. */
+/* Of what a file of its size would hardly hold, as a flat WebP: many small files must not take all
+ * memory. */
 #define EXPANSION 4096
 #define EXCESS_LIMIT ((size_t)1 << 30)
 

@@ -35,8 +35,8 @@ ps_result assembly_add_lights(struct assembly *assembly);
 /* Whether a light is a surface, which is a shape with a material of its own. */
 bool light_is_lamp(const struct light_description *light);
 
-/* A light as an object, whose arrays are the caller's to release (object_description_release). False
- * when out of memory. */
+/* A light as an object, whose arrays are the caller's to release (object_description_release).
+ * False when out of memory. */
 bool lamp_describe(const struct light_description *light, struct object_description *object);
 
 #endif

@@ -2,9 +2,10 @@
  * sphere.
  *
  * The front of a closed shape is its outside, also where its placement mirrors it. The front of an
- * open one is the placement's image of its front: a mirrored light shines as its mirror image would.
- * The front of a quad or a triangle is the side that sees its corners counter-clockwise before it is
- * placed; of a disc and a plane the one that the normal points to; of a height field +y.
+ * open one is the placement's image of its front: a mirrored light shines as its mirror image
+ * would. The front of a quad or a triangle is the side that sees its corners counter-clockwise
+ * before it is placed; of a disc and a plane the one that the normal points to; of a height field
+ * +y.
  *
  * (u, v) of a picture on a shape, u to the right and v upwards as seen from the front:
  *   quad             (0, 0), (1, 0), (1, 1), (0, 1) at corners 0 to 3
@@ -14,18 +15,18 @@
  *   cylinder, cone   u round the axis from points[0] to [1] as round a sphere's y; v along it
  *   torus            u as a sphere; v round the tube: inside 0, below 1/4, outside 1/2, top 3/4
  *   disc, and ends   0..1 over the square around it, along the frame (ps_frame) of its normal
- *   plane            lengths in the object's own units along the frame of its normal, from the point
- *                    of the plane next to the origin: a picture repeats over every unit
+ *   plane            lengths in the object's own units along the frame of its normal, from the
+ *                    point of the plane next to the origin: a picture repeats over every unit
  *   height field     (x, z): mirrored as seen from above, as POV-Ray's axes are left-handed
  *   mesh             its own
  *   triangles        none
  * Where the placement mirrors, the picture is mirrored with the shape. The frame of +y is x, -z; of
  * +z it is x, y.
  *
- * Round shapes other than an exact sphere are meshes whose vertices lie on the true surface. With 64
- * segments their area is too small by this share: disc 0.16 %, side of a cylinder 0.04 %, torus of
- * radii 2 and 0.5 0.26 %; sphere as an ellipsoid, which is finer, 0.05 %. It falls with the square of
- * the segments.
+ * Round shapes other than an exact sphere are meshes whose vertices lie on the true surface. With
+ * 64 segments their area is too small by this share: disc 0.16 %, side of a cylinder 0.04 %, torus
+ * of radii 2 and 0.5 0.26 %; sphere as an ellipsoid, which is finer, 0.05 %. It falls with the
+ * square of the segments.
  */
 #ifndef SCENE_SHAPE_H
 #define SCENE_SHAPE_H

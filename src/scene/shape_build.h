@@ -15,8 +15,9 @@ typedef ps_result shape_builder(const struct object_description *object,
                                 const struct shape_surroundings *surroundings, struct shape *shape,
                                 struct error *error);
 
-/* PS_ERROR_INVALID where an object's numbers, taken together, make no shape: single ones were bounded as they were
- * read. Meshes are placed by the caller, which also releases the shape after an error. */
+/* PS_ERROR_INVALID where an object's numbers, taken together, make no shape: single ones were
+ * bounded as they were read. Meshes are placed by the caller, which also releases the shape after
+ * an error. */
 shape_builder shape_quad, shape_box, shape_triangles, shape_mesh;  /* shape_flat.c */
 shape_builder shape_plane;                                         /* shape_plane.c */
 shape_builder shape_cylinder, shape_cone, shape_disc, shape_torus; /* shape_round.c */

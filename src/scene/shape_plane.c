@@ -1,12 +1,12 @@
 /* shape_plane.c: a plane, as a square large enough.
  *
- * The plane holds the points with normal . p = distance. A distance that is to be found puts it where its front
- * has all corners of the box around the other objects before it, and a little lower: faces that lie in one plane would
- * hide each other by chance. With a stated extent the square lies
- * around the plane's point next to the origin, and a placement stretches it with the rest. Without
- * one it is meant to go on for ever, so it is chosen where the shape will be: a true square around
- * the surroundings. That is carried back to lengths along the plane's own axes, which make (u, v),
- * so that pictures and placement treat both alike.
+ * The plane holds the points with normal . p = distance. A distance that is to be found puts it
+ * where its front has all corners of the box around the other objects before it, and a little
+ * lower: faces that lie in one plane would hide each other by chance. With a stated extent the
+ * square lies around the plane's point next to the origin, and a placement stretches it with the
+ * rest. Without one it is meant to go on for ever, so it is chosen where the shape will be: a true
+ * square around the surroundings. That is carried back to lengths along the plane's own axes, which
+ * make (u, v), so that pictures and placement treat both alike.
  */
 #include "scene/shape_build.h"
 
@@ -22,8 +22,9 @@ struct sheet {
     ps_vec3 origin, u, v;
 };
 
-/* Along the unit normal from the origin, in the object's space, to just below the box. With the placement A, T and
- * the placed plane's unit normal m, that is t where m . (A n t + T) = the lowest of the box along m. */
+/* Along the unit normal from the origin, in the object's space, to just below the box. With the
+ * placement A, T and the placed plane's unit normal m, that is t where m . (A n t + T) = the lowest
+ * of the box along m. */
 static double distance_below(const struct affine *placement, ps_vec3 normal, const struct box *box)
 {
     if (!box || box_is_empty(box))

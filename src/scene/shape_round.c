@@ -8,7 +8,8 @@
 #define PI 3.14159265358979323846
 
 /* A cylinder is a cone whose ends are alike. */
-/* --- what makes no shape: NULL where nothing is wrong ---------------------------------------------- */
+/* --- what makes no shape: NULL where nothing is wrong
+ * ---------------------------------------------- */
 
 static const char *check_segments(const struct object_description *object)
 {
@@ -63,7 +64,8 @@ static const char *check_torus(const struct object_description *object)
     return check_segments(object);
 }
 
-/* --- shapes ------------------------------------------------------------------------------------ */
+/* --- shapes
+ * ------------------------------------------------------------------------------------ */
 
 static ps_result build_cone(const struct object_description *object, float radius, float to_radius,
                             struct shape *shape, struct error *error)

@@ -14,8 +14,8 @@
 #include "image/raster.h"
 #include "scene/description.h"
 
-/* Samples as a raster has them, the top row first; in tiles of 2^tile_shift texels a side, where a file has them, of
- * which the last ones may reach beyond the picture. */
+/* Samples as a raster has them, the top row first; in tiles of 2^tile_shift texels a side, where a
+ * file has them, of which the last ones may reach beyond the picture. */
 struct texels {
     uint32_t width, height, tiles_across;
     const unsigned char *bytes;
@@ -52,11 +52,12 @@ struct texture_storage {
     struct mapped_budget *budget; /* of what lies there, where there is a cache */
 };
 
-/* Loads what raster_decode can read, or a layer of it. The encoding "auto" takes the colours of OpenEXR and Radiance
- * files for linear, and others for sRGB (IEC 61966-2-1); pictures that hold no colours, such as normal
- * maps, want ENCODING_LINEAR. Alpha is linear, and colours are not divided by it: those of OpenEXR
- * are premultiplied. `storage`: NULL, as if all of it were; its budget outlives the texture. Messages start with the description's path; codes are those
- * of raster_fetch and raster_decode. `texture` is written only on success, and what it held is not released. */
+/* Loads what raster_decode can read, or a layer of it. The encoding "auto" takes the colours of
+ * OpenEXR and Radiance files for linear, and others for sRGB (IEC 61966-2-1); pictures that hold no
+ * colours, such as normal maps, want ENCODING_LINEAR. Alpha is linear, and colours are not divided
+ * by it: those of OpenEXR are premultiplied. `storage`: NULL, as if all of it were; its budget
+ * outlives the texture. Messages start with the description's path; codes are those of raster_fetch
+ * and raster_decode. `texture` is written only on success, and what it held is not released. */
 ps_result texture_load(const struct texture_description *description,
                        const struct texture_storage *storage, struct texture *texture,
                        struct error *error);
@@ -67,8 +68,9 @@ void texture_release(struct texture *texture);
  * picture repeats or is mirrored. */
 void texture_sample(const struct texture *texture, float u, float v, float rgba[4]);
 
-/* The same as a mean over a part of the picture whose width, in texture coordinates, has the binary logarithm
- * log_width; -INFINITY: a point. Between the two levels whose texels are about as wide (Williams 1983). */
+/* The same as a mean over a part of the picture whose width, in texture coordinates, has the binary
+ * logarithm log_width; -INFINITY: a point. Between the two levels whose texels are about as wide
+ * (Williams 1983). */
 void texture_filter(const struct texture *texture, float u, float v, float log_width,
                     float rgba[4]);
 
@@ -82,11 +84,12 @@ static inline uint32_t texture_alpha(const struct texture *texture)
 /* The colour of one texel: column from the left, row from the bottom; both must exist. */
 void texture_texel(const struct texture *texture, uint32_t column, uint32_t row, float rgba[4]);
 
-/* Whether the colours, times a factor of 0 or more, may leave 0..1: integers by their type, floats looked at one by one,
- * once. Not to be called while others sample. */
+/* Whether the colours, times a factor of 0 or more, may leave 0..1: integers by their type, floats
+ * looked at one by one, once. Not to be called while others sample. */
 bool texture_leaves_range(struct texture *texture, float factor);
 
-/* Makes sure that lowest and highest are known where they count; and that they hold for so many more pixels. */
+/* Makes sure that lowest and highest are known where they count; and that they hold for so many
+ * more pixels. */
 void texture_find_extremes(struct texture *texture);
 void texture_widen_extremes(struct texture *texture, const void *samples, size_t pixels);
 

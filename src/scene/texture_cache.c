@@ -26,7 +26,8 @@ struct header {
 
 static const char magic[8] = "psplatT";
 
-/* --- names ----------------------------------------------------------------------------------------- */
+/* --- names
+ * ----------------------------------------------------------------------------------------- */
 
 /* PSPLAT_DECODER is a digest of the sources that decode pictures, and of these. */
 char *texture_cache_path(const char *folder, const struct texture_description *description,
@@ -45,7 +46,8 @@ char *texture_cache_path(const char *folder, const struct texture_description *d
     return path;
 }
 
-/* --- tiles ----------------------------------------------------------------------------------------- */
+/* --- tiles
+ * ----------------------------------------------------------------------------------------- */
 
 static uint32_t tiles_along(uint32_t texels)
 {
@@ -66,7 +68,8 @@ static uint64_t file_bytes(const struct texture *texture)
     return size;
 }
 
-/* --- storing --------------------------------------------------------------------------------------- */
+/* --- storing
+ * --------------------------------------------------------------------------------------- */
 
 /* The row of tiles that fills with lines, and where it goes in the file. */
 struct tile_row {
@@ -82,7 +85,8 @@ struct texture_entry {
     struct tile_row levels[TEXTURE_LEVELS];
 };
 
-/* In pieces: Linux maps at once as much of a file as was written at once, which would be more than a block. */
+/* In pieces: Linux maps at once as much of a file as was written at once, which would be more than
+ * a block. */
 static ps_result write_pieces(const struct output_file *file, uint64_t at,
                               const unsigned char *bytes, size_t size, struct error *error)
 {
@@ -242,7 +246,8 @@ void texture_entry_discard(struct texture_entry *entry)
     release_entry(entry);
 }
 
-/* --- loading --------------------------------------------------------------------------------------- */
+/* --- loading
+ * --------------------------------------------------------------------------------------- */
 
 static bool is_possible(const struct header *header)
 {

@@ -46,7 +46,8 @@ void transfer_text(struct transfer *transfer, char **text)
     move_array(transfer, text, size, 1);
 }
 
-/* --- the walk -------------------------------------------------------------------------------------- */
+/* --- the walk
+ * -------------------------------------------------------------------------------------- */
 
 static void move_cameras(struct transfer *transfer, struct scene_description *description)
 {
@@ -160,7 +161,8 @@ void transfer_description(struct transfer *transfer, struct scene_description *d
     move_files(transfer, description);
 }
 
-/* --- names ----------------------------------------------------------------------------------------- */
+/* --- names
+ * ----------------------------------------------------------------------------------------- */
 
 struct naming {
     const struct scene_description *description;

@@ -59,8 +59,8 @@ static ps_vec3 on_sphere(uint32_t ring, uint32_t segment)
     return (ps_vec3){sinf(polar) * cosf(around), -cosf(polar), -sinf(polar) * sinf(around)};
 }
 
-/* Triangle `index` of the unit sphere, counter-clockwise from outside: a fan at each pole, two for each square
- * between. */
+/* Triangle `index` of the unit sphere, counter-clockwise from outside: a fan at each pole, two for
+ * each square between. */
 static void sphere_triangle(uint32_t index, ps_vec3 corners[3])
 {
     uint32_t strip = (index + SEGMENTS) / (2 * SEGMENTS); /* the ring below it */

@@ -1,4 +1,5 @@
-/* vector.h: vectors in double precision, where differences of coordinates must not lose what they tell. */
+/* vector.h: vectors in double precision, where differences of coordinates must not lose what they
+ * tell. */
 #ifndef SCENE_VECTOR_H
 #define SCENE_VECTOR_H
 

@@ -1,4 +1,5 @@
-/* job_options.h: when a render of many passes ends, what it keeps on the way, and which processes share it. */
+/* job_options.h: when a render of many passes ends, what it keeps on the way, and which processes
+ * share it. */
 #ifndef SESSION_JOB_OPTIONS_H
 #define SESSION_JOB_OPTIONS_H
 

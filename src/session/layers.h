@@ -1,7 +1,7 @@
 /* layers.h: which of a rendered picture's layers go into its EXR files (render --layers).
  *
- * A list is `none`, or names with commas between them, among which `all` stands for every layer but `display`. The
- * picture itself, R, G and B, always stays.
+ * A list is `none`, or names with commas between them, among which `all` stands for every layer but
+ * `display`. The picture itself, R, G and B, always stays.
  */
 #ifndef SESSION_LAYERS_H
 #define SESSION_LAYERS_H

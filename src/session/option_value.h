@@ -1,5 +1,5 @@
-/* option_value.h: reads values of options. What is wrong is told in the words of the command line ("--seed: expected
- * ..."), and the result is PS_ERROR_INVALID then. */
+/* option_value.h: reads values of options. What is wrong is told in the words of the command line
+ * ("--seed: expected ..."), and the result is PS_ERROR_INVALID then. */
 #ifndef SESSION_OPTION_VALUE_H
 #define SESSION_OPTION_VALUE_H
 

@@ -30,13 +30,15 @@ bool output_list_wants_error(const struct output_list *list);
 /* Whether what a display shows is asked for: by a PNG, or by its layer. */
 bool output_list_wants_display(const struct output_list *list);
 
-/* Writes all files that can be written, and tells of each by `tell`, unless that is NULL; the error is the first one's. */
+/* Writes all files that can be written, and tells of each by `tell`, unless that is NULL; the error
+ * is the first one's. */
 typedef void (*output_list_tell)(void *user, const char *path);
 ps_result output_list_write(const struct output_list *list, const struct image *image,
                             struct workers *workers, output_list_tell tell, void *user,
                             struct error *error);
 
-/* About how many seconds it takes to write so many pixels of the channels of `image`, by so many threads. */
+/* About how many seconds it takes to write so many pixels of the channels of `image`, by so many
+ * threads. */
 double output_list_guess_seconds(const struct output_list *list, const struct image *image,
                                  double pixels, uint32_t threads);
 

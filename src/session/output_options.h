@@ -1,4 +1,5 @@
-/* output_options.h: how a picture is written to files: which layers EXR files hold, and their compression. */
+/* output_options.h: how a picture is written to files: which layers EXR files hold, and their
+ * compression. */
 #ifndef SESSION_OUTPUT_OPTIONS_H
 #define SESSION_OUTPUT_OPTIONS_H
 

@@ -1,7 +1,7 @@
 /* preview.h: the option --preview: the options that it sets.
  *
- * One pass of few light paths with large splats and coarse maps: noise and small shadows are given up,
- * the light's amount and colour are not.
+ * One pass of few light paths with large splats and coarse maps: noise and small shadows are given
+ * up, the light's amount and colour are not.
  */
 #ifndef SESSION_PREVIEW_H
 #define SESSION_PREVIEW_H

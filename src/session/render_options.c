@@ -36,7 +36,8 @@ void render_options_release(struct render_options *options)
     *options = render_options_init();
 }
 
-/* --- one function for each option ------------------------------------------------------------------- */
+/* --- one function for each option
+ * ------------------------------------------------------------------- */
 
 static ps_result set_parameter(struct render_options *options, const char *value,
                                struct error *error)

@@ -1,4 +1,5 @@
-/* render_options.h: the options of a render by their command-line names (psplat(1)), and how they become settings. */
+/* render_options.h: the options of a render by their command-line names (psplat(1)), and how they
+ * become settings. */
 #ifndef SESSION_RENDER_OPTIONS_H
 #define SESSION_RENDER_OPTIONS_H
 
@@ -33,18 +34,20 @@ void render_options_release(struct render_options *options);
 bool render_options_has(const char *name);
 bool render_options_is_flag(const char *name);
 
-/* Gives an option a value (NULL for a flag), which is copied. `param`, `set`, `plugin` and `output` add to those given before; of
- * the others the last counts. `preview` sets other options; a value that is given explicitly, before or after it,
- * overrides them. PS_ERROR_INVALID: there is no such option, or no such value, or it excludes another. */
+/* Gives an option a value (NULL for a flag), which is copied. `param`, `set`, `plugin` and `output`
+ * add to those given before; of the others the last counts. `preview` sets other options; a value
+ * that is given explicitly, before or after it, overrides them. PS_ERROR_INVALID: there is no such
+ * option, or no such value, or it excludes another. */
 ps_result render_options_set(struct render_options *options, const char *name, const char *value,
                              struct error *error);
 
-/* PS_ERROR_INVALID where options do not go together; PS_ERROR_IO where a file that is to be written can't be. The second
- * is for the process that writes. */
+/* PS_ERROR_INVALID where options do not go together; PS_ERROR_IO where a file that is to be written
+ * can't be. The second is for the process that writes. */
 ps_result render_options_check(const struct render_options *options, struct error *error);
 ps_result render_options_check_files(const struct render_options *options, struct error *error);
 
-/* PS_ERROR_INVALID where one of those is a file of the scene; but for a checkpoint: a file that is no film is never replaced. */
+/* PS_ERROR_INVALID where one of those is a file of the scene; but for a checkpoint: a file that is
+ * no film is never replaced. */
 ps_result render_options_check_not_input(const struct render_options *options,
                                          const struct scene_description *description,
                                          struct error *error);
@@ -52,22 +55,23 @@ ps_result render_options_check_not_input(const struct render_options *options,
 /* Whether the render's film is kept. */
 bool render_options_keep_film(const struct render_options *options);
 
-/* Applies the options to a scene description that was read with options->scene. What is wrong is in the input's sink. */
+/* Applies the options to a scene description that was read with options->scene. What is wrong is in
+ * the input's sink. */
 ps_result render_options_apply(const struct render_options *options, struct scene_input *input);
 
-/* Makes settings of a description to which the options were applied, and starts the threads. Settings refer to the
- * options. What is wrong is in the sink. */
+/* Makes settings of a description to which the options were applied, and starts the threads.
+ * Settings refer to the options. What is wrong is in the sink. */
 ps_result render_options_resolve(const struct render_options *options,
                                  const struct scene_description *description,
                                  struct diagnostics *sink, struct render_settings *settings);
 
-/* Takes back what a preview asks of scenes in general, and this one cannot have: where pixels ask some of many lights
- * each, they have nothing to join (discontinuity_buffer.h). */
+/* Takes back what a preview asks of scenes in general, and this one cannot have: where pixels ask
+ * some of many lights each, they have nothing to join (discontinuity_buffer.h). */
 void render_options_adapt_preview(const struct render_options *options, const struct scene *scene,
                                   struct render_settings *settings);
 
-/* PS_ERROR_INVALID where a part is asked for that can't be rendered alone (render_check_crop); PS_ERROR_MEMORY where a
- * picture takes more than the options allow, or this machine lends. */
+/* PS_ERROR_INVALID where a part is asked for that can't be rendered alone (render_check_crop);
+ * PS_ERROR_MEMORY where a picture takes more than the options allow, or this machine lends. */
 ps_result render_options_check_size(const struct render_options *options,
                                     const struct image_description *image,
                                     const struct render_settings *settings, struct error *error);

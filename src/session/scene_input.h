@@ -1,5 +1,5 @@
-/* scene_input.h: the way from a scene file, and what is laid over it, to a scene and settings. All problems on the way
- * are reported to one sink: errors where a step fails, and warnings.
+/* scene_input.h: the way from a scene file, and what is laid over it, to a scene and settings. All
+ * problems on the way are reported to one sink: errors where a step fails, and warnings.
  */
 #ifndef SESSION_SCENE_INPUT_H
 #define SESSION_SCENE_INPUT_H
@@ -18,7 +18,8 @@ struct scene_input {
 ps_result scene_input_create(struct scene_input *input, struct error *error);
 void scene_input_release(struct scene_input *input);
 
-/* Reads the scene, from a file or a text (see psd_read_text_with). A mesh file is a scene by itself (model/model.h). */
+/* Reads the scene, from a file or a text (see psd_read_text_with). A mesh file is a scene by itself
+ * (model/model.h). */
 ps_result scene_input_read(struct scene_input *input, const char *path,
                            const struct scene_options *options);
 ps_result scene_input_read_text(struct scene_input *input, const char *name, const char *text,

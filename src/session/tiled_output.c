@@ -21,7 +21,8 @@ struct tiled_output {
     size_t top, row_height;
 };
 
-/* --- rows of tiles for PNG files ---------------------------------------------------------------- */
+/* --- rows of tiles for PNG files
+ * ---------------------------------------------------------------- */
 
 /* Writes the row of tiles, and begins the next one. */
 static ps_result end_row(struct tiled_output *output, struct error *error)
@@ -44,7 +45,8 @@ static ps_result add_to_row(struct tiled_output *output, const struct image *par
     return tile.x + tile.width == output->width ? end_row(output, error) : PS_OK;
 }
 
-/* --- files ----------------------------------------------------------------------------------------- */
+/* --- files
+ * ----------------------------------------------------------------------------------------- */
 
 static ps_result add_to_exr(const struct tiled_output *output, const struct image *part,
                             struct rectangle tile, struct error *error)

@@ -1,7 +1,7 @@
 /* kinds.h: the kinds of strategy, stated once.
  *
- * X(KIND, name, summary, default) for each, in the order of ps_kind: the name is that of scene files, --plugin and the
- * plugin folders, and the default is what is used where nothing is said.
+ * X(KIND, name, summary, default) for each, in the order of ps_kind: the name is that of scene
+ * files, --plugin and the plugin folders, and the default is what is used where nothing is said.
  */
 #ifndef SETTINGS_KINDS_H
 #define SETTINGS_KINDS_H

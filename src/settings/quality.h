@@ -1,9 +1,9 @@
 /* quality.h: how much work a picture is worth, where nobody says it in numbers.
  *
- * X(NAME, word, effort, passes) for each quality, from the fastest: defaults of parameters that are numbers of samples
- * (PS_PARAM_QUALITY) are multiplied by the effort, and a render has so many passes. Passes add up everything, also
- * smooth edges, and what mirrors and glass choose by lot; the time of a picture is in proportion to effort times
- * passes.
+ * X(NAME, word, effort, passes) for each quality, from the fastest: defaults of parameters that are
+ * numbers of samples (PS_PARAM_QUALITY) are multiplied by the effort, and a render has so many
+ * passes. Passes add up everything, also smooth edges, and what mirrors and glass choose by lot;
+ * the time of a picture is in proportion to effort times passes.
  */
 #ifndef SETTINGS_QUALITY_H
 #define SETTINGS_QUALITY_H

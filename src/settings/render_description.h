@@ -8,7 +8,8 @@
 #include "base/origin.h"
 #include <psplat/module.h>
 
-/* A plugin's name (or path) with parameters, still as text: only the plugin's table can check them. */
+/* A plugin's name (or path) with parameters, still as text: only the plugin's table can check
+ * them. */
 struct parameter_text {
     char *key, *value; /* owned; vectors are written "[x, y, z]" */
     struct origin key_origin, value_origin;

@@ -4,8 +4,9 @@
 #include "short_range/short_range_pilot.h"
 #include <math.h>
 
-/* Rays of each pixel that tell whether anything is near to the block that it lies in. Where none of the
- * block's sixteen pixels meet anything, less than half a percent of the light can come from nearby. */
+/* Rays of each pixel that tell whether anything is near to the block that it lies in. Where none of
+ * the block's sixteen pixels meet anything, less than half a percent of the light can come from
+ * nearby. */
 #define SCOUTS 4
 
 #define BLOCK 4 /* pixels along the side of a block */
@@ -32,9 +33,10 @@ static uint64_t power_of_two(double number)
     return power;
 }
 
-/* Rays of a pixel, by its tile's share of them. Those of its window are averaged, n of them in the middle of a
- * surface and c along its rim, where a ray tells c pixels and not n: what noise is left in the picture is least
- * with sqrt(n / c) times as many there. A power of two, since these are spread most evenly. */
+/* Rays of a pixel, by its tile's share of them. Those of its window are averaged, n of them in the
+ * middle of a surface and c along its rim, where a ray tells c pixels and not n: what noise is left
+ * in the picture is least with sqrt(n / c) times as many there. A power of two, since these are
+ * spread most evenly. */
 static uint64_t rays_of(const struct gathering *work, uint64_t tile, uint32_t lane)
 {
     const struct gathered_light *near = work->rays.near;
@@ -73,8 +75,8 @@ static void share_samples(const struct gathering *work, uint64_t tile, const ps_
     }
 }
 
-/* Adds what one ray of each point finds; near[block] becomes 1 where it meets something. With directions
- * drawn by the cosine, a ray's irradiance is pi times the radiance that it finds. */
+/* Adds what one ray of each point finds; near[block] becomes 1 where it meets something. With
+ * directions drawn by the cosine, a ray's irradiance is pi times the radiance that it finds. */
 static void gather(const struct gathering *work, const struct sample_runs *samples,
                    const ps_points *points, uint64_t tile, uint64_t sample, uint8_t *near)
 {
@@ -96,8 +98,8 @@ static void gather(const struct gathering *work, const struct sample_runs *sampl
     }
 }
 
-/* Keeps the points that shoot ray `sample`: of those whose scouts are back, the ones of blocks that something
- * is near to. */
+/* Keeps the points that shoot ray `sample`: of those whose scouts are back, the ones of blocks that
+ * something is near to. */
 static void keep_looking(const struct sample_runs *samples, uint64_t sample, const uint8_t *near,
                          ps_points *points)
 {
@@ -111,8 +113,8 @@ static void keep_looking(const struct sample_runs *samples, uint64_t sample, con
     points->count = kept;
 }
 
-/* What rays of the tiles around tell of the variance of what pixels will find. Their own add to it: all of a
- * pixel's may meet nothing bright by chance, or one of them what few meet. */
+/* What rays of the tiles around tell of the variance of what pixels will find. Their own add to it:
+ * all of a pixel's may meet nothing bright by chance, or one of them what few meet. */
 static void expect_variances(const struct gathering *work, uint64_t tile, const ps_points *points,
                              const struct sample_runs *samples)
 {

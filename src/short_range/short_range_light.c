@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* For 400,000 light paths, and how few and many there may be. Furnished rooms want more, empty ones fewer. */
+/* For 400,000 light paths, and how few and many there may be. Furnished rooms want more, empty ones
+ * fewer. */
 #define RAYS 170
 #define LEAST_RAYS 16
 #define MOST_RAYS 4096
@@ -74,7 +75,8 @@ void gathered_light_release(struct gathered_light *near)
 /* So many standard deviations may be chance; squared. */
 #define CHANCE2 4.0f
 
-/* From the mean of a window to what the pixel found itself, as far as that is no chance (short_range_light.h). */
+/* From the mean of a window to what the pixel found itself, as far as that is no chance
+ * (short_range_light.h). */
 static ps_rgb between(ps_rgb mean, ps_rgb own, float variance)
 {
     ps_rgb apart = {own.r - mean.r, own.g - mean.g, own.b - mean.b};

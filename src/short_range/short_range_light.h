@@ -1,14 +1,15 @@
 /* short_range_light.h: the light that splats of a pass leave out, pixel by pixel.
  *
- * It is gathered with few rays a pixel (short_range_gather.h), and becomes a mean over the window that splats are
- * interleaved over, or would be if they were fewer and larger (geometry_filter.h). Beside a thing no larger than a
- * pixel, and along contacts, that is too wide. So a pixel whose own rays found something else than the mean, by
- * D with a variance of s^2 (both of the sum of its channels), goes from the mean to its own by the part
+ * It is gathered with few rays a pixel (short_range_gather.h), and becomes a mean over the window
+ * that splats are interleaved over, or would be if they were fewer and larger (geometry_filter.h).
+ * Beside a thing no larger than a pixel, and along contacts, that is too wide. So a pixel whose own
+ * rays found something else than the mean, by D with a variance of s^2 (both of the sum of its
+ * channels), goes from the mean to its own by the part
  *
  *     max(0, 1 - (2 s / D)^2)
  *
- * which is next to 1 where they surely differ, and 0 where that may be chance (the garrote of Gao 1998, "Wavelet
- * shrinkage denoising using the non-negative garrote").
+ * which is next to 1 where they surely differ, and 0 where that may be chance (the garrote of Gao
+ * 1998, "Wavelet shrinkage denoising using the non-negative garrote").
  */
 #ifndef SHORT_RANGE_SHORT_RANGE_LIGHT_H
 #define SHORT_RANGE_SHORT_RANGE_LIGHT_H
@@ -30,8 +31,8 @@ struct gathered_light {
     const struct gbuffer *gbuffer; /* borrowed, in the pass */
 };
 
-/* So many rays a pixel, and those that it is averaged with, have less noise than the splats of so many paths:
- * both fall by the root of their number, nearly. */
+/* So many rays a pixel, and those that it is averaged with, have less noise than the splats of so
+ * many paths: both fall by the root of their number, nearly. */
 uint32_t gathered_light_rays(uint64_t paths);
 
 /* Starts a pass in which light from within a distance is left, and makes room where there is none.

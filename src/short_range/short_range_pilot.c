@@ -5,7 +5,8 @@
 
 #define PILOT_PART 0.125 /* of the rays */
 
-/* A tile gets some rays in any case, the others by the standard deviation of what single rays find there. */
+/* A tile gets some rays in any case, the others by the standard deviation of what single rays find
+ * there. */
 #define EVEN_SHARE 0.25
 
 static const struct gather_streams numbers = {GATHER_PILOT_DIRECTIONS, GATHER_PILOT_LAMPS};

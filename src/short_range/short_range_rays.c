@@ -6,8 +6,8 @@
 
 #define TILES_AT_A_TIME 256 /* until the user may stop */
 
-/* Shoots one ray from each point, and moves what they meet to the front; returns how many. targets[i]: the
- * point of hit i. */
+/* Shoots one ray from each point, and moves what they meet to the front; returns how many.
+ * targets[i]: the point of hit i. */
 static size_t look(const struct gather_rays *pass_rays, const ps_points *points, uint32_t set,
                    const uint64_t *indices, ps_ray *rays, ps_hit *hits, uint32_t *targets)
 {

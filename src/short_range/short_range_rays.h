@@ -1,4 +1,5 @@
-/* short_range_rays.h: short rays from pixels, and the light that what they meet gets straight from the lights. */
+/* short_range_rays.h: short rays from pixels, and the light that what they meet gets straight from
+ * the lights. */
 #ifndef SHORT_RANGE_SHORT_RANGE_RAYS_H
 #define SHORT_RANGE_SHORT_RANGE_RAYS_H
 
@@ -22,8 +23,9 @@ struct gather_streams {
     uint32_t directions, lights;
 };
 
-/* What one ray of each point, cosine-distributed, finds of the light that splats leave out: radiance[i] comes to point
- * targets[i], for i < what is returned. `indices`: of each point's random numbers; changed. Any thread. */
+/* What one ray of each point, cosine-distributed, finds of the light that splats leave out:
+ * radiance[i] comes to point targets[i], for i < what is returned. `indices`: of each point's
+ * random numbers; changed. Any thread. */
 size_t gather_rays_shoot(const struct gather_rays *rays, const ps_points *points,
                          struct gather_streams numbers, uint64_t *indices, uint32_t *targets,
                          ps_rgb *radiance);
@@ -31,8 +33,8 @@ size_t gather_rays_shoot(const struct gather_rays *rays, const ps_points *points
 /* Moves a point to another's place among them. */
 void gather_rays_move(ps_points *points, size_t from, size_t to);
 
-/* Calls body(user, i, worker) on all threads for each of `tiles` tiles, rays->first_tile + i; PS_CANCELLED when the user
- * stops it. */
+/* Calls body(user, i, worker) on all threads for each of `tiles` tiles, rays->first_tile + i;
+ * PS_CANCELLED when the user stops it. */
 ps_result gather_rays_over_tiles(struct gather_rays *rays, uint32_t tiles, ps_body body,
                                  void *user);
 

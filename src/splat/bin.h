@@ -12,8 +12,8 @@
 #include "splat/pyramid.h"
 
 /* Pairs of a batch of splats, sorted by tile: tile t has splats indices[offsets[t] .. offsets[t +
- * 1]), for first_tile <= t < end_tile; other tiles have none. The range is that of the subsets that the
- * batch lights, which are few: light paths that follow each other share one. */
+ * 1]), for first_tile <= t < end_tile; other tiles have none. The range is that of the subsets that
+ * the batch lights, which are few: light paths that follow each other share one. */
 struct bins {
     uint32_t first_tile, end_tile;
     size_t lighting;   /* splats that light anything, in view or not */

@@ -1,8 +1,8 @@
 /* exact.h: the inner loop for visibilities that judge every point by itself.
  *
- * The same sums as kernel.h, with V(p) from the visibility's test of the point instead of a depth map. The
- * kernel weighs a tile's pixels as if nothing were in the way; those with weight are asked for, all of a splat
- * at once, since their rays run side by side.
+ * The same sums as kernel.h, with V(p) from the visibility's test of the point instead of a depth
+ * map. The kernel weighs a tile's pixels as if nothing were in the way; those with weight are asked
+ * for, all of a splat at once, since their rays run side by side.
  */
 #ifndef SPLAT_EXACT_H
 #define SPLAT_EXACT_H

@@ -79,8 +79,8 @@ static void lane_place(uint32_t lane, uint32_t *x, uint32_t *y)
     *y = by_rows / PS_TILE_SIZE;
 }
 
-/* The last column or row before `line` at which the pattern of subsets begins: a pixel's subset is that of the whole
- * picture. */
+/* The last column or row before `line` at which the pattern of subsets begins: a pixel's subset is
+ * that of the whole picture. */
 static uint32_t pattern_start(uint32_t line, uint32_t interleave)
 {
     return line - line % interleave;
@@ -205,7 +205,8 @@ void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbu
     parallel_for(workers, interleaved->tile_count, fill_tile, &work);
 }
 
-/* --- joining ------------------------------------------------------------------------------------ */
+/* --- joining
+ * ------------------------------------------------------------------------------------ */
 
 /* A tile of the G-buffer and what lies around it. */
 struct apron {

@@ -1,10 +1,10 @@
 /* interleaved.h: what splats light: the G-buffer's surfaces and sums, arranged for the inner loop.
  *
- * Interleaved sampling (Segovia et al. 2006, "Non-interleaved deferred shading of interleaved sample
- * patterns", after Keller and Heidrich 2001): the pixels fall into n x n subsets, every n-th across
- * and down, and a splat lights those of one subset only, n^2 times as strongly. That costs n^2 times
- * fewer tests; as splats are far larger than n pixels, what neighbours learned from different splats
- * makes up for it when interleaved_join averages them.
+ * Interleaved sampling (Segovia et al. 2006, "Non-interleaved deferred shading of interleaved
+ * sample patterns", after Keller and Heidrich 2001): the pixels fall into n x n subsets, every n-th
+ * across and down, and a splat lights those of one subset only, n^2 times as strongly. That costs
+ * n^2 times fewer tests; as splats are far larger than n pixels, what neighbours learned from
+ * different splats makes up for it when interleaved_join averages them.
  *
  * A tile holds 16x16 pixels of one subset, in blocks of 4x4 that lie one after the other and are
  * bounded by a box each: a block is what the inner loop takes at a time.
@@ -47,10 +47,12 @@ struct interleaved {
     struct geometric_normals *geometric_normals; /* of each tile, owned; or NULL */
 };
 
-/* Interleaved pixels of a G-buffer's window, and no memory for it; `interleave` 1..PS_MOST_INTERLEAVE. */
+/* Interleaved pixels of a G-buffer's window, and no memory for it; `interleave`
+ * 1..PS_MOST_INTERLEAVE. */
 struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave);
 
-/* Memory for the tiles of a layout, which have to be filled. PS_ERROR_MEMORY: nothing is left to release. */
+/* Memory for the tiles of a layout, which have to be filled. PS_ERROR_MEMORY: nothing is left to
+ * release. */
 ps_result interleaved_create(struct interleaved layout, struct interleaved *interleaved,
                              struct error *error);
 void interleaved_release(struct interleaved *interleaved);

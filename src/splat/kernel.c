@@ -53,8 +53,8 @@ float kernel_profile_radius2(size_t i)
     return ((float)i + 0.5f) / (float)KERNEL_PROFILE_SIZE;
 }
 
-/* The part of the kernel beyond a straight border at `distance` from its middle: of the ring of radius r,
- * acos(distance / r) / pi. */
+/* The part of the kernel beyond a straight border at `distance` from its middle: of the ring of
+ * radius r, acos(distance / r) / pi. */
 static double part_beyond(const struct kernel_profile *profile, double sum, double distance)
 {
     double part = 0;
@@ -106,8 +106,8 @@ static float boundaries_likeness(const struct splat *splat)
 /* 1 / 0 would make NaN of what is not lit. */
 #define LEAST_WIDTH 1e-3f
 
-/* One width for all pixels, but for full bundles that follow the distance. Pixels that would take more than
- * the box holds all take part, with the weight of a wider disc. */
+/* One width for all pixels, but for full bundles that follow the distance. Pixels that would take
+ * more than the box holds all take part, with the weight of a wider disc. */
 static struct bandwidth prepare_width(const struct splat *splat)
 {
     float inverse = 1.0f / splat->bundle.radius;

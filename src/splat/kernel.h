@@ -3,30 +3,33 @@
  * For every splat and every pixel p of the tile, with d = p - centre:
  *
  *     u = d.U / R, v = d.V / R, t = d.W         position in the box
- *     h                                         the part of the disc that the pixel takes (bandwidth.h), of R
+ *     h                                         the part of the disc that the pixel takes
+ *                                               (bandwidth.h), of R
  *     r^2 = (u^2 + v^2) / h^2
  *     k = profile(r^2) * scale / (h R)^2        the kernel K, 1/m^2, integrates to 1 over its disc
  *     lit where u^2 + v^2 < 1, r^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the
  *     bundle starts on, and not past the map by more than the bias
  *     irradiance += power * k * max(0, -n.W), weight += merged * k
  *
- * A bundle starts a little above its photon's surface (footprint_clearance); for a pixel that takes less of the
- * disc, by as much less, so that where two surfaces meet light reaches the crease.
+ * A bundle starts a little above its photon's surface (footprint_clearance); for a pixel that takes
+ * less of the disc, by as much less, so that where two surfaces meet light reaches the crease.
  *
- * Near to the photon's plane pixels get a part of the light only (gather_share.h): the rest is the estimator's.
+ * Near to the photon's plane pixels get a part of the light only (gather_share.h): the rest is the
+ * estimator's.
  *
- * A splat that stands for several photons weighs as much as they would (Hoet 2014, section 3.2.1); the
- * loop has that as a larger k of a lesser power.
+ * A splat that stands for several photons weighs as much as they would (Hoet 2014, section 3.2.1);
+ * the loop has that as a larger k of a lesser power.
  *
- * Where the photon has boundaries beside it (boundary.h), k is divided by the part of the kernel that they leave.
+ * Where the photon has boundaries beside it (boundary.h), k is divided by the part of the kernel
+ * that they leave.
  *
- * The cosine is there because K lies in the plane across the bundle. Blocks of 16 pixels whose bounds
- * the box does not touch are left out, and a block is left as soon as no pixel of it can be lit: after
- * they are placed, after they chose their widths, and after they are weighed. No branches from lane to
- * lane: masks and gathers (from the depth map, the profile, and what boundaries leave), so that compilers turn
- * the loops into 8 or 16 lanes. It is compiled
- * once for each instruction set (kernel_variant.c) and chosen at run time; a pixel's sum runs in
- * splat order.
+ * The cosine is there because K lies in the plane across the bundle. Blocks of 16 pixels whose
+ * bounds the box does not touch are left out, and a block is left as soon as no pixel of it can be
+ * lit: after they are placed, after they chose their widths, and after they are weighed. No
+ * branches from lane to lane: masks and gathers (from the depth map, the profile, and what
+ * boundaries leave), so that compilers turn the loops into 8 or 16 lanes. It is compiled once for
+ * each instruction set (kernel_variant.c) and chosen at run time; a pixel's sum runs in splat
+ * order.
  */
 #ifndef SPLAT_KERNEL_H
 #define SPLAT_KERNEL_H
@@ -84,10 +87,10 @@ static inline float kernel_above(const struct kernel_splat *splat, float u, floa
 #define KERNEL_BEHIND 1.0f
 
 /* The part of a kernel that two straight borders leave, of which `one` and `other` lie beyond each;
- * `likeness` as kernel_splat.boundaries_likeness. Beyond both lies nothing where the borders face each other
- * (-1), the product where they stand at right angles (0; exact for a Gaussian), the lesser part where they
- * are parallel (1); in between, what lies in between, exact for any round kernel whose middle lies on
- * both. */
+ * `likeness` as kernel_splat.boundaries_likeness. Beyond both lies nothing where the borders face
+ * each other (-1), the product where they stand at right angles (0; exact for a Gaussian), the
+ * lesser part where they are parallel (1); in between, what lies in between, exact for any round
+ * kernel whose middle lies on both. */
 static inline float kernel_left(float one, float other, float likeness)
 {
     float product = one * other, lesser = one < other ? one : other;
@@ -114,8 +117,8 @@ struct kernel_variant {
                                       const struct kernel_splat *splats, const uint32_t *indices,
                                       size_t n, uint32_t resolution,
                                       const struct kernel_profile *profile);
-    /* What a splat would give to a tile with nothing in the way (its map has one texel, at INFINITY); returns
-     * to how many pixels. */
+    /* What a splat would give to a tile with nothing in the way (its map has one texel, at
+     * INFINITY); returns to how many pixels. */
     uint32_t (*weigh)(const struct interleaved_tile *tile, const struct kernel_splat *splat,
                       const struct kernel_profile *profile, struct kernel_weighed *weighed);
     /* Which of sixteen boxes the splat's box may touch, as bits. */

@@ -1,11 +1,12 @@
 /* kernel_variant.c: the loops of kernel.h, compiled once for each instruction set with
- * KERNEL_VARIANT naming it. Conditions are joined by &, not &&, and indices stay in their tables, so that every
- * lane may run every step. Loops over lanes are marked `omp simd`, and results go to arrays that
- * no gather may alias: where compilers have doubts they leave a loop scalar without a word
- * (tests/cli/test_vectors.sh).
+ * KERNEL_VARIANT naming it. Conditions are joined by &, not &&, and indices stay in their tables,
+ * so that every lane may run every step. Loops over lanes are marked `omp simd`, and results go to
+ * arrays that no gather may alias: where compilers have doubts they leave a loop scalar without a
+ * word (tests/cli/test_vectors.sh).
  *
  * Splats are taken a few at a time: first each is tried on the sixteen blocks' bounds, which gives
- * every block a list; then block after block runs through its list, so that its pixels stay at hand.
+ * every block a list; then block after block runs through its list, so that its pixels stay at
+ * hand.
  */
 #include "placement/footprint.h"
 #include "splat/kernel.h"
@@ -178,8 +179,9 @@ static inline void look_into_map(const struct placed_block *placed, const float 
     }
 }
 
-/* The profile at each pixel, and the squared radius there, 1e6 at most (LEAST_WIDTH). Past 1 any entry will do,
- * and must not be chosen: compilers then choose between addresses, and gather slowly. */
+/* The profile at each pixel, and the squared radius there, 1e6 at most (LEAST_WIDTH). Past 1 any
+ * entry will do, and must not be chosen: compilers then choose between addresses, and gather
+ * slowly. */
 static inline void look_into_profile(const struct placed_block *placed, const float *profile,
                                      float *restrict radius2, float *restrict values)
 {
@@ -194,8 +196,9 @@ static inline void look_into_profile(const struct placed_block *placed, const fl
 
 #define LEAST_COSINE (1.0f / sqrtf(1.0f + FOOTPRINT_STEEPEST * FOOTPRINT_STEEPEST))
 
-/* Returns how many pixels have weight. A pixel may lie past the map by the bias, c + s * tangent of the angle
- * under which the light meets the surface itself; both sides times the cosine need no root. */
+/* Returns how many pixels have weight. A pixel may lie past the map by the bias, c + s * tangent of
+ * the angle under which the light meets the surface itself; both sides times the cosine need no
+ * root. */
 static inline int weigh(const struct placed_block *placed, const float *surface_facing,
                         const struct kernel_splat *splat, int resolution, const float *profile,
                         struct block_light *restrict light)
@@ -229,8 +232,8 @@ static inline int weigh(const struct placed_block *placed, const float *surface_
     return lanes_count(lanes_mask(lit));
 }
 
-/* The part of the kernel around each pixel's start that lies beyond a wall, or KERNEL_BEHIND. (Here the entry is
- * chosen, at both ends: the table's length is no power of two.) */
+/* The part of the kernel around each pixel's start that lies beyond a wall, or KERNEL_BEHIND. (Here
+ * the entry is chosen, at both ends: the table's length is no power of two.) */
 static inline void look_beyond(const struct placed_block *placed, const ps_boundary *wall,
                                const float *beyond, float *restrict parts)
 {
@@ -244,8 +247,8 @@ static inline void look_beyond(const struct placed_block *placed, const ps_bound
     }
 }
 
-/* Divides by the part of the kernel that the boundaries beside the photon leave; behind them there is no such
- * photon. */
+/* Divides by the part of the kernel that the boundaries beside the photon leave; behind them there
+ * is no such photon. */
 static inline void make_up(const struct placed_block *placed, const struct kernel_splat *splat,
                            const float *beyond, struct block_light *light)
 {

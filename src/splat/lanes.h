@@ -1,6 +1,6 @@
-/* lanes.h: sixteen conditions as the bits of a number, which compilers find no short way to: of the arrays that a
- * loop over sixteen pixels leaves they or-ed one half to the other four times over, a twelfth of the kernel's
- * time.
+/* lanes.h: sixteen conditions as the bits of a number, which compilers find no short way to: of the
+ * arrays that a loop over sixteen pixels leaves they or-ed one half to the other four times over, a
+ * twelfth of the kernel's time.
  */
 #ifndef SPLAT_LANES_H
 #define SPLAT_LANES_H

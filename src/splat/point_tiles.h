@@ -1,8 +1,9 @@
 /* point_tiles.h: points that are no pixels, laid out as tiles that splats light.
  *
- * Point i is lane i % 256 of the i / 256th tile. The pyramid above the tiles groups 4x4 of them; so that tiles which
- * follow each other share its nodes, their places are the base-16 digits of their number, each a place in a square of
- * 4x4. Splats cull well where points next to each other in the order lie close together.
+ * Point i is lane i % 256 of the i / 256th tile. The pyramid above the tiles groups 4x4 of them; so
+ * that tiles which follow each other share its nodes, their places are the base-16 digits of their
+ * number, each a place in a square of 4x4. Splats cull well where points next to each other in the
+ * order lie close together.
  */
 #ifndef SPLAT_POINT_TILES_H
 #define SPLAT_POINT_TILES_H

@@ -23,15 +23,15 @@ struct pyramid {
     uint32_t tiles_across, tiles_down; /* of each subset */
 };
 
-/* Room for the pyramid of a interleaved, which has to be built before it is visited. PS_ERROR_MEMORY: nothing
- * is left to release. Main thread. */
+/* Room for the pyramid of a interleaved, which has to be built before it is visited.
+ * PS_ERROR_MEMORY: nothing is left to release. Main thread. */
 ps_result pyramid_create(const struct interleaved *interleaved, struct pyramid *pyramid,
                          struct error *error);
 void pyramid_release(struct pyramid *pyramid);
 size_t pyramid_bytes(const struct pyramid *pyramid);
 
-/* Bounds of what the tiles of `interleaved`, the one that it was created for, see now. Main thread; works on
- * `workers`. */
+/* Bounds of what the tiles of `interleaved`, the one that it was created for, see now. Main thread;
+ * works on `workers`. */
 void pyramid_build(struct pyramid *pyramid, const struct interleaved *interleaved,
                    struct workers *workers);
 

@@ -82,9 +82,9 @@ void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
     splatter->join_seconds += clock_seconds() - start;
 }
 
-/* The subset that a path's splats light. Runs of paths that follow each other share one: any part of
- * a low-discrepancy sequence without gaps is one itself, while every n-th point is not. Passes go
- * round, so that no pixel always belongs to the same part. */
+/* The subset that a path's splats light. Runs of paths that follow each other share one: any part
+ * of a low-discrepancy sequence without gaps is one itself, while every n-th point is not. Passes
+ * go round, so that no pixel always belongs to the same part. */
 static uint32_t subset_of(const struct splatter *splatter, uint64_t path)
 {
     const struct splatter_pass *pass = &splatter->pass;
@@ -137,7 +137,8 @@ bool splatter_touches(const struct splatter *splatter, const struct splat *splat
                           touches_none, &touch);
 }
 
-/* The depth maps of up to MAP_CHUNK splats; those of splats that light nothing are left as they are. */
+/* The depth maps of up to MAP_CHUNK splats; those of splats that light nothing are left as they
+ * are. */
 static void fill_maps(const struct splatter *splatter, const struct splat *splats, size_t n,
                       float *depths)
 {

@@ -1,5 +1,5 @@
-/* splatter.h: adds the light of a batch of splats to tiles, of pixels or of other points: maps, bins, kernel; or,
- * where the visibility judges points by themselves, bins and the loop of exact.h.
+/* splatter.h: adds the light of a batch of splats to tiles, of pixels or of other points: maps,
+ * bins, kernel; or, where the visibility judges points by themselves, bins and the loop of exact.h.
  *
  * Memory is bounded: splats go through in batches whose depth maps fit a fixed budget. The result
  * does not depend on the batches nor on the threads: every pixel adds its splats in their order.
@@ -33,7 +33,8 @@ struct splatter_pass {
     uint64_t path_count;
 };
 
-/* Whether it pays to ask which splats light nothing of the pass before they are made (host/photons.c). */
+/* Whether it pays to ask which splats light nothing of the pass before they are made
+ * (host/photons.c). */
 struct unseen {
     uint64_t batches; /* placed so far in the pass */
     bool asked;       /* in this batch */

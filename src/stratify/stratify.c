@@ -2,8 +2,8 @@
 
 #include "stratify/merge.h"
 
-/* Room for the strata of n photons, in one piece of memory: 40 bytes each, whatever the strata. NULL: there is
- * none. */
+/* Room for the strata of n photons, in one piece of memory: 40 bytes each, whatever the strata.
+ * NULL: there is none. */
 static void *create_strata(const ps_host *host, size_t n, ps_strata *strata)
 {
     size_t each = 2 * sizeof(ps_key_entry) + sizeof(size_t);

@@ -67,7 +67,8 @@ static void print_parts(struct part_list *list)
     list->first = NULL;
 }
 
-/* A mesh file that is read twice has two names, though they are spelled alike; instances are never joined. */
+/* A mesh file that is read twice has two names, though they are spelled alike; instances are never
+ * joined. */
 static void add_part(void *user, const struct object_description *object, const struct box *box)
 {
     struct part_list *list = user;

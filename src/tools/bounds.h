@@ -4,8 +4,9 @@
 
 #include "scene/scene.h"
 
-/* Prints to stdout, a line each: the box around the scene, those around its mesh files and around instances that
- * hold some, and the camera, as a scene would say it. The scene was made of the description. */
+/* Prints to stdout, a line each: the box around the scene, those around its mesh files and around
+ * instances that hold some, and the camera, as a scene would say it. The scene was made of the
+ * description. */
 ps_result bounds_print(const struct scene_description *description, const struct scene *scene,
                        struct error *error);
 

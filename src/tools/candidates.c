@@ -41,7 +41,8 @@ void candidate_print(const struct prefix *prefix, const char *word, const char *
                (int)printable_length(help), help);
 }
 
-/* --- values by their form ----------------------------------------------------------------------------- */
+/* --- values by their form
+ * ----------------------------------------------------------------------------- */
 
 /* Names of an option's values, with a comma and a blank between them. */
 #define JOIN_WORD(name_, word_, ...) word_ ", "
@@ -101,8 +102,8 @@ static void print_model_suffixes(void)
         printf(" .%s", model_extension(i));
 }
 
-/* One of the forms that '|' separates: a word that stands for itself is in lower case or a digit. Whether it is a file,
- * for which `suffixes` then has its suffixes. */
+/* One of the forms that '|' separates: a word that stands for itself is in lower case or a digit.
+ * Whether it is a file, for which `suffixes` then has its suffixes. */
 static bool print_form(const struct prefix *prefix, const char *form, size_t length)
 {
     char word[64];
@@ -140,7 +141,8 @@ static void print_by_form(const struct prefix *prefix, const char *forms)
     printf("\n");
 }
 
-/* --- values by the scene ------------------------------------------------------------------------------ */
+/* --- values by the scene
+ * ------------------------------------------------------------------------------ */
 
 static void print_parameter(void *user, const struct psd_parameter *parameter)
 {
@@ -171,7 +173,8 @@ static void print_cameras(const struct prefix *prefix, const char *scene)
     scene_input_release(&input);
 }
 
-/* --- words of the line -------------------------------------------------------------------------------- */
+/* --- words of the line
+ * -------------------------------------------------------------------------------- */
 
 /* Commands that take the last stages' strategies alone. */
 static ps_kind first_kind(const struct command *command)
@@ -280,8 +283,8 @@ static void print_last_word(const struct line *line)
     }
 }
 
-/* Takes the words before the last one; the scene may also stand behind it, where a shell gives only those up to the
- * cursor, so that it is not known. */
+/* Takes the words before the last one; the scene may also stand behind it, where a shell gives only
+ * those up to the cursor, so that it is not known. */
 static void take_word(struct line *line, const char *word)
 {
     size_t length = strlen(word);

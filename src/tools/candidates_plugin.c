@@ -55,7 +55,8 @@ static void print_choices(const struct prefix *prefix, const ps_param *row)
         candidate_print(prefix, row->choices[i], "", true);
 }
 
-/* `list` is what follows the colon; the parameter at its end is completed: its name, or its value. */
+/* `list` is what follows the colon; the parameter at its end is completed: its name, or its
+ * value. */
 static void print_parameters(const struct prefix *prefix, const struct param_table *table,
                              const char *list)
 {

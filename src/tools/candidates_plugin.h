@@ -1,4 +1,5 @@
-/* candidates_plugin.h: completes "KIND=NAME:KEY=VALUE,..." by the tables of the plugins that are there. */
+/* candidates_plugin.h: completes "KIND=NAME:KEY=VALUE,..." by the tables of the plugins that are
+ * there. */
 #ifndef TOOLS_CANDIDATES_PLUGIN_H
 #define TOOLS_CANDIDATES_PLUGIN_H
 

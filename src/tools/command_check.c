@@ -31,7 +31,8 @@ static bool asks_for(const struct argument *arguments, size_t count, const char 
     return found;
 }
 
-/* Pictures are read, shapes and lights made, and strategies started: what is wrong with those shows only then. */
+/* Pictures are read, shapes and lights made, and strategies started: what is wrong with those shows
+ * only then. */
 static bool builds(struct scene_input *input, struct render_settings *settings, bool prints_bounds)
 {
     static const struct render_callbacks callbacks = {.log = print_log};

@@ -1,4 +1,5 @@
-/* command_complete.c: psplat complete: what may stand next on a command line; the shells' completions ask it. */
+/* command_complete.c: psplat complete: what may stand next on a command line; the shells'
+ * completions ask it. */
 #include "tools/candidates.h"
 
 #include <stdlib.h>

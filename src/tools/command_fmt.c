@@ -16,7 +16,8 @@ static const struct option options[] = {
 
 enum outcome { UNCHANGED, CHANGED, FAULTY, FAILED };
 
-/* The new file gets the owner and the permissions of the old one; a change of owner takes bits of the permissions away. */
+/* The new file gets the owner and the permissions of the old one; a change of owner takes bits of
+ * the permissions away. */
 static void keep_owner_and_permissions(int descriptor, const char *path)
 {
     struct stat status;

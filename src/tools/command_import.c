@@ -1,4 +1,5 @@
-/* command_import.c: psplat import: makes a .psd scene of a scene of another renderer: pbrt, POV-Ray. */
+/* command_import.c: psplat import: makes a .psd scene of a scene of another renderer: pbrt,
+ * POV-Ray. */
 #include "base/input_file.h"
 #include "base/text.h"
 #include "cli/command.h"

@@ -1,4 +1,5 @@
-/* command_merge.c: psplat merge: films of one job become the film of all their passes, and of all parts of the picture. */
+/* command_merge.c: psplat merge: films of one job become the film of all their passes, and of all
+ * parts of the picture. */
 #include "cli/command.h"
 #include "film/film_parts.h"
 #include "job/facts.h"
@@ -110,7 +111,8 @@ static ps_result check_job(const struct labelled_film *first, const struct label
     return PS_OK;
 }
 
-/* --- passes of one part --------------------------------------------------------------------------- */
+/* --- passes of one part
+ * --------------------------------------------------------------------------- */
 
 static ps_result add_passes(const struct job *job, struct labelled_film *part,
                             const struct labelled_film *film, struct error *error)
@@ -156,7 +158,8 @@ static ps_result add(const struct job *job, struct parts *parts, const char *pat
     return result;
 }
 
-/* --- parts of one picture ------------------------------------------------------------------------- */
+/* --- parts of one picture
+ * ------------------------------------------------------------------------- */
 
 static ps_result check_passes(const struct parts *parts, struct error *error)
 {

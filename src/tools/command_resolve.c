@@ -105,7 +105,8 @@ static bool spares_film(const struct job *job)
     return true;
 }
 
-/* --- settings --------------------------------------------------------------------------------------- */
+/* --- settings
+ * --------------------------------------------------------------------------------------- */
 
 static ps_result set_number(struct render_description *render, const char *key, const char *text,
                             struct error *error)
@@ -130,7 +131,8 @@ static bool is_overridden(const struct job *job, ps_kind kind)
     return false;
 }
 
-/* The strategy that the film's job had chosen. Who opens a film does not ask for programs that it names. */
+/* The strategy that the film's job had chosen. Who opens a film does not ask for programs that it
+ * names. */
 static ps_result take_strategy(struct job *job, ps_kind kind, struct error *error)
 {
     char key[64];
@@ -188,7 +190,8 @@ static ps_result load_settings(struct job *job, struct render_settings *settings
     return result == PS_OK ? last_stages_resolve(&job->stages, threads, settings, error) : result;
 }
 
-/* --- picture ---------------------------------------------------------------------------------------- */
+/* --- picture
+ * ---------------------------------------------------------------------------------------- */
 
 static ps_result describe(const struct job *job, const struct render_settings *settings,
                           struct image *image, struct error *error)

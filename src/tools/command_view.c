@@ -1,10 +1,10 @@
 /* command_view.c: psplat view: a layer of a picture as PNG.
  *
- * Colours are light, which bloom and tone map bring to a display; but the layer `display` has been there, and needs the
- * sRGB curve alone. Normals (layer N) and single channels are no light: they go to bytes in
- * proportion, without that curve, -1..1 and 0..the largest finite value to 0..255. Samples that
- * are not finite are black. Parts are cut out, and magnified, after that: pixels stay what they are in
- * the whole picture, so parts of one picture compare.
+ * Colours are light, which bloom and tone map bring to a display; but the layer `display` has been
+ * there, and needs the sRGB curve alone. Normals (layer N) and single channels are no light: they
+ * go to bytes in proportion, without that curve, -1..1 and 0..the largest finite value to 0..255.
+ * Samples that are not finite are black. Parts are cut out, and magnified, after that: pixels stay
+ * what they are in the whole picture, so parts of one picture compare.
  */
 #include "base/text.h"
 #include "cli/command.h"

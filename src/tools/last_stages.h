@@ -1,4 +1,5 @@
-/* last_stages.h: settings of the stages that need no scene: those that make a picture of a film, or show one. */
+/* last_stages.h: settings of the stages that need no scene: those that make a picture of a film, or
+ * show one. */
 #ifndef TOOLS_LAST_STAGES_H
 #define TOOLS_LAST_STAGES_H
 
@@ -9,7 +10,8 @@ struct last_stages {
     struct render_description description;
 };
 
-/* The default settings. Whether it succeeds or not, release it, after the settings that are made of it. */
+/* The default settings. Whether it succeeds or not, release it, after the settings that are made of
+ * it. */
 ps_result last_stages_create(struct last_stages *stages, struct error *error);
 void last_stages_release(struct last_stages *stages);
 

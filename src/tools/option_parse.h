@@ -1,4 +1,5 @@
-/* option_parse.h: numbers and rectangles on the command lines of the tools. What is wrong is printed. */
+/* option_parse.h: numbers and rectangles on the command lines of the tools. What is wrong is
+ * printed. */
 #ifndef TOOLS_OPTION_PARSE_H
 #define TOOLS_OPTION_PARSE_H
 

@@ -157,7 +157,8 @@ static struct outcome attempt(const struct trial *trial, struct attempt attempt)
     return outcome;
 }
 
-/* --- verdicts ----------------------------------------------------------------------------------- */
+/* --- verdicts
+ * ----------------------------------------------------------------------------------- */
 
 static void verdict(struct trial *trial, bool good, const char *what, const char *why)
 {
@@ -201,7 +202,8 @@ static void try_to_stop(struct trial *trial)
     }
 }
 
-/* --- power -------------------------------------------------------------------------------------- */
+/* --- power
+ * -------------------------------------------------------------------------------------- */
 
 struct powers {
     double all, first,
@@ -267,7 +269,8 @@ static void try_power(struct trial *trial)
                 "the photons have another power than before");
 }
 
-/* --- light that is shown --------------------------------------------------------------------------- */
+/* --- light that is shown
+ * --------------------------------------------------------------------------- */
 
 static double shown_light(const struct image *image)
 {
@@ -299,7 +302,8 @@ static void try_bloom(struct trial *trial)
     image_release(&sharp.image);
 }
 
-/* --- the whole ---------------------------------------------------------------------------------- */
+/* --- the whole
+ * ---------------------------------------------------------------------------------- */
 
 static void try_strategy(struct trial *trial)
 {

@@ -1,5 +1,5 @@
-/* render_arguments.h: the command line of `debug` and `check` as render options, and the way from them to a
- * scene and settings, with all problems printed. */
+/* render_arguments.h: the command line of `debug` and `check` as render options, and the way from
+ * them to a scene and settings, with all problems printed. */
 #ifndef TOOLS_RENDER_ARGUMENTS_H
 #define TOOLS_RENDER_ARGUMENTS_H
 
@@ -20,8 +20,8 @@ void render_arguments_release(struct render_arguments *taken);
 /* Prints what a step of the input had to say. */
 void print_problems(const struct scene_input *input);
 
-/* Reads a scene, and lays the options over it. False, printed, where that fails; the input is to be released in any
- * case. */
+/* Reads a scene, and lays the options over it. False, printed, where that fails; the input is to be
+ * released in any case. */
 bool render_arguments_read(const struct render_arguments *taken, const char *path,
                            struct scene_input *input);
 

@@ -51,7 +51,8 @@ static inline void shim_occluded16(const int *valid, RTCScene scene, struct RTCR
 }
 #endif
 
-/* Members of lane `lane` of a filter's N rays, likewise (below), in the order of struct RTCRay16. */
+/* Members of lane `lane` of a filter's N rays, likewise (below), in the order of struct
+ * RTCRay16. */
 static inline float shim_ray_direction(const struct RTCRayN *rays, unsigned n, unsigned lane,
                                        unsigned axis)
 {
@@ -63,8 +64,8 @@ static inline unsigned shim_ray_mask(const struct RTCRayN *rays, unsigned n, uns
     return ((const unsigned *)(const void *)rays)[9 * n + lane];
 }
 
-/* Members of lane `lane` of a filter's N hits, for which Embree has accessors in C++ alone: arrays of N
- * in the order of struct RTCHit16. */
+/* Members of lane `lane` of a filter's N hits, for which Embree has accessors in C++ alone: arrays
+ * of N in the order of struct RTCHit16. */
 static inline float shim_hit_normal(const struct RTCHitN *hits, unsigned n, unsigned lane,
                                     unsigned axis)
 {

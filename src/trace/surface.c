@@ -125,7 +125,8 @@ static ps_vec3 smooth_normal(const struct shape *shape, const struct intersectio
     return unit(at->normal);
 }
 
-/* The derivatives of the position by what the pigment's image is looked up by, before the image's own transform. */
+/* The derivatives of the position by what the pigment's image is looked up by, before the image's
+ * own transform. */
 static void tangents(const struct shape *shape, const struct pigment *pigment,
                      const struct intersection *at, ps_vec3 place, ps_vec3 *by_u, ps_vec3 *by_v)
 {
@@ -169,7 +170,8 @@ static ps_vec3 bend(const struct shape *shape, const struct material *material,
     return normal;
 }
 
-/* --- ray cones ----------------------------------------------------------------------------------- */
+/* --- ray cones
+ * ----------------------------------------------------------------------------------- */
 
 /* Of the parallelogram over a triangle's edges. */
 static float uv_area(const float (*uv)[2], const uint32_t corner[3])
@@ -190,7 +192,8 @@ static float area_in_world(const struct placed *placed, const uint32_t corner[3]
         ps_cross(ps_subtract(points[1], points[0]), ps_subtract(points[2], points[0])));
 }
 
-/* How much of the texture coordinates' area a unit of the surface's area has; of two sets, the smaller. */
+/* How much of the texture coordinates' area a unit of the surface's area has; of two sets, the
+ * smaller. */
 static float uv_density(const struct placed *placed, uint32_t triangle)
 {
     const struct shape *shape = placed->shape;
@@ -205,7 +208,8 @@ static float uv_density(const struct placed *placed, uint32_t triangle)
     return area < INFINITY ? area / area_in_world(placed, corner) : 0.0f;
 }
 
-/* As wide as the cone across its axis: on slanted surfaces the mean over its longer side would blur along the shorter one. */
+/* As wide as the cone across its axis: on slanted surfaces the mean over its longer side would blur
+ * along the shorter one. */
 static uint32_t cone_flags(const struct placed *placed, const struct intersection *at,
                            enum material_filter filter, float spread)
 {
@@ -224,8 +228,8 @@ static void face_ray(const ps_ray *ray, bool diffuse, ps_hit *hit)
         hit->normal = ps_scale(hit->normal, -1.0f);
         hit->flags |= PS_HIT_BACK;
     }
-    /* Near the outline of a coarse mesh a smoothed normal may turn away from who sees it. What is diffuse alone looks the
-     * same from everywhere. */
+    /* Near the outline of a coarse mesh a smoothed normal may turn away from who sees it. What is
+     * diffuse alone looks the same from everywhere. */
     if (!diffuse && ps_dot(hit->normal, ray->direction) >= 0.0f)
         hit->normal = hit->geometric_normal;
 }
@@ -263,8 +267,8 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, float sprea
     return hit;
 }
 
-/* In (0, 1], a hash of the bits of the hit: the same for the same ray, and another for a ray that hits a rounding error
- * apart. Surfaces in one place have numbers of their own. */
+/* In (0, 1], a hash of the bits of the hit: the same for the same ray, and another for a ray that
+ * hits a rounding error apart. Surfaces in one place have numbers of their own. */
 static float number_of_point(const struct intersection *at, ps_vec3 place)
 {
     uint32_t bits[3];

@@ -88,7 +88,8 @@ static struct intersection intersection_of(const struct scene *scene, uint32_t i
     };
 }
 
-/* Lets rays through where there is no surface, and those of the camera where it is not seen from behind. */
+/* Lets rays through where there is no surface, and those of the camera where it is not seen from
+ * behind. */
 static void filter_hits(const struct RTCFilterFunctionNArguments *arguments)
 {
     const struct scene *scene = ((const struct trace *)arguments->geometryUserPtr)->scene;
@@ -114,8 +115,8 @@ static void filter_hits(const struct RTCFilterFunctionNArguments *arguments)
     }
 }
 
-/* Whether instances give their groups materials with cut-outs, or show fronts alone, for each group; freed by the
- * caller. */
+/* Whether instances give their groups materials with cut-outs, or show fronts alone, for each
+ * group; freed by the caller. */
 static bool *find_filtered(const struct scene *scene)
 {
     bool *filtered = calloc(scene->group_count + 1, sizeof *filtered);
@@ -140,8 +141,8 @@ static unsigned mask_of(bool hidden)
     return hidden ? MASK_LIGHT : MASK_CAMERA | MASK_LIGHT;
 }
 
-/* Attaches a run of shapes to a scene, numbered from 0. `filtered`: some of their materials, other than
- * their own, have holes, or they are seen from the front alone. */
+/* Attaches a run of shapes to a scene, numbered from 0. `filtered`: some of their materials, other
+ * than their own, have holes, or they are seen from the front alone. */
 static void attach_shapes(struct trace *trace, RTCScene embree, size_t first, size_t count,
                           bool filtered)
 {
@@ -157,9 +158,9 @@ static void attach_shapes(struct trace *trace, RTCScene embree, size_t first, si
     }
 }
 
-/* A tree for each shape and one over those, which Embree builds at its low quality, or one tree for all
- * triangles together: the former finds hits in rooms of a few walls and blocks a fifth sooner, the latter
- * where large meshes lie inside of one another. */
+/* A tree for each shape and one over those, which Embree builds at its low quality, or one tree for
+ * all triangles together: the former finds hits in rooms of a few walls and blocks a fifth sooner,
+ * the latter where large meshes lie inside of one another. */
 #define MOST_TRIANGLES_BY_SHAPE 65536
 
 static enum RTCBuildQuality build_quality(const struct shape *shapes, size_t count)

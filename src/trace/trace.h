@@ -23,15 +23,16 @@ void trace_destroy(struct trace *trace);
 /* Bytes that the acceleration structure takes now. */
 size_t trace_bytes(const struct trace *trace);
 
-/* First hits of n rays. `spreads`: of the cones that they stand for (surface_resolve); NULL: none. */
+/* First hits of n rays. `spreads`: of the cones that they stand for (surface_resolve); NULL:
+ * none. */
 void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays,
                      const float *spreads, size_t n, ps_hit *hits);
 
 /* 1 where something lies between tnear and tfar. */
 void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uint8_t *blocked);
 
-/* Shortens tfar of each ray of n packets to its first hit. `coherent`: whether rays of a packet run close
- * together. */
+/* Shortens tfar of each ray of n packets to its first hit. `coherent`: whether rays of a packet run
+ * close together. */
 void trace_packets(const struct trace *trace, ps_ray_packet *packets, size_t n, bool coherent);
 
 #endif

@@ -1,6 +1,7 @@
 /* edge_find.c: which pixels are edges; see edges.h.
  *
- * A tile and the pixels around it lie in plain arrays, so that compilers make vectors of the loop over a row.
+ * A tile and the pixels around it lie in plain arrays, so that compilers make vectors of the loop
+ * over a row.
  */
 #include "view/edges.h"
 
@@ -12,11 +13,12 @@
 /* Radiance and albedo differ if |a - b| exceeds this fraction of the larger one. */
 #define CONTRAST 0.25f
 
-/* A neighbour whose squared distance from the pixel's tangent plane exceeds this fraction of their squared distance lies beyond a
- * step; less may be a normal that is bent or smoothed. */
+/* A neighbour whose squared distance from the pixel's tangent plane exceeds this fraction of their
+ * squared distance lies beyond a step; less may be a normal that is bent or smoothed. */
 #define STEP2 0.25f
 
-/* Radiance differs if the squared difference exceeds this many times its variance: three standard deviations. */
+/* Radiance differs if the squared difference exceeds this many times its variance: three standard
+ * deviations. */
 #define NOISE2 9.0f
 
 #define LEAST_COSINE 0.9f /* between normals of one surface */
@@ -32,9 +34,10 @@ struct neighbourhood {
     float variance[3][SIDE][SIDE]; /* of that radiance */
 };
 
-/* The variance of direct light: `direct` is the mean of two halves of the shadow rays, and its difference from one of them estimates
- * its standard deviation. Light of lights that cast hard shadows, where it is kept apart, is taken out: it has noise only at
- * edges, which must be found. */
+/* The variance of direct light: `direct` is the mean of two halves of the shadow rays, and its
+ * difference from one of them estimates its standard deviation. Light of lights that cast hard
+ * shadows, where it is kept apart, is taken out: it has noise only at edges, which must be
+ * found. */
 static void load_variance(const struct gbuffer *gbuffer, size_t pixel, ps_rgb albedo, int row,
                           int column, struct neighbourhood *around)
 {
@@ -80,7 +83,8 @@ static void load_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, int 
     load_variance(gbuffer, pixel, albedo, row, column, around);
 }
 
-/* Replaces the variance by its mean over 3x3 pixels: with few rays, both halves often agree by chance. */
+/* Replaces the variance by its mean over 3x3 pixels: with few rays, both halves often agree by
+ * chance. */
 static void smooth_variance(float variance[SIDE][SIDE])
 {
     float rows[SIDE][SIDE];
@@ -107,7 +111,8 @@ static inline int exceeds(float a, float b, float variance)
     return (a - b) * (a - b) > NOISE2 * variance;
 }
 
-/* Marks the pixels of a row whose neighbours at (dx, dy) see another surface, or another colour of it or from it. */
+/* Marks the pixels of a row whose neighbours at (dx, dy) see another surface, or another colour of
+ * it or from it. */
 static void compare_row(const struct neighbourhood *around, int row, int dx, int dy,
                         int differs[PS_TILE_SIZE])
 {

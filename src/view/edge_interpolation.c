@@ -6,7 +6,8 @@
 
 #define RADIUS 2 /* pixels around, to each side */
 
-/* A stochastic sample needs so many pixels around that see its surface; another one needs one. Or the whole tile is used. */
+/* A stochastic sample needs so many pixels around that see its surface; another one needs one. Or
+ * the whole tile is used. */
 #define FEWEST_STOCHASTIC 6.0f
 
 /* How closely what a neighbour sees matches what a sample sees. */
@@ -75,8 +76,8 @@ static int compare(const struct edge_neighbours *neighbours, const ps_tile *tile
     return best;
 }
 
-/* Weights of the neighbours: the inverse squared distance for those that match best, 0 for the others. Returns how many see the
- * sample's surface. */
+/* Weights of the neighbours: the inverse squared distance for those that match best, 0 for the
+ * others. Returns how many see the sample's surface. */
 static float find_weights(const struct edge_neighbours *neighbours, const ps_tile *tile,
                           uint32_t lane, float weights[EDGE_NEIGHBOURS])
 {
@@ -140,7 +141,8 @@ static void interpolate_from_tile(const ps_tile *from, float count, ps_tile *til
     tile->irradiance_b[lane] = weighted_mean(weights, from->irradiance_b, PS_TILE_PIXELS);
 }
 
-/* Few of the pixels around see the same reflection in gloss; with one of them, its noise would be that of all samples. */
+/* Few of the pixels around see the same reflection in gloss; with one of them, its noise would be
+ * that of all samples. */
 void edge_interpolate(const struct gbuffer *gbuffer, const struct edge_neighbours *neighbours,
                       uint32_t x, uint32_t y, bool stochastic, ps_tile *tile, uint32_t lane)
 {

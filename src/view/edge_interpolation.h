@@ -4,10 +4,11 @@
  *
  *     E = sum over i of w_i E_i / sum over i of w_i,   w_i = 1 / |x_i - x|^2
  *
- * with x the sample's point and x_i those of the pixels (inverse distance weighting: Shepard 1968, "A two-dimensional
- * interpolation function for irregularly-spaced data"): light changes fast in corners and under eaves, and what two
- * pixels see may lie far apart. Where no pixel around sees the surface (for stochastic samples: fewer than six), the pixels of the
- * tile that do are used; failing that, pixels around of the same object, or any that see a surface. The indirect light of
+ * with x the sample's point and x_i those of the pixels (inverse distance weighting: Shepard 1968,
+ * "A two-dimensional interpolation function for irregularly-spaced data"): light changes fast in
+ * corners and under eaves, and what two pixels see may lie far apart. Where no pixel around sees
+ * the surface (for stochastic samples: fewer than six), the pixels of the tile that do are used;
+ * failing that, pixels around of the same object, or any that see a surface. The indirect light of
  * a sample by rays of its own would be far noisier.
  */
 #ifndef VIEW_EDGE_INTERPOLATION_H
@@ -31,8 +32,8 @@ struct edge_neighbours {
 void edge_neighbours_find(const struct gbuffer *gbuffer, uint32_t x, uint32_t y,
                           struct edge_neighbours *neighbours);
 
-/* Sets the indirect light of a sample, a lane of a tile of samples, that lies in pixel (x, y). `stochastic`: lens, gloss or
- * glass decided what it sees. */
+/* Sets the indirect light of a sample, a lane of a tile of samples, that lies in pixel (x, y).
+ * `stochastic`: lens, gloss or glass decided what it sees. */
 void edge_interpolate(const struct gbuffer *gbuffer, const struct edge_neighbours *neighbours,
                       uint32_t x, uint32_t y, bool stochastic, ps_tile *tile, uint32_t lane);
 

@@ -36,7 +36,8 @@ static void draw_pattern(const struct edge_pass *pass, struct edge_samples *batc
     }
 }
 
-/* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere; two make halves. */
+/* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere; two make
+ * halves. */
 static uint32_t light_samples_of(const struct edge_pass *pass)
 {
     uint32_t wanted = (pass->lighting->scene->light_samples + pass->samples - 1) / pass->samples;

@@ -35,7 +35,8 @@ static float find_others(const ps_tile *tile, uint32_t lane, float others[PS_TIL
     return count;
 }
 
-/* The mean of the others, or that by their nearness if it is larger: light that is bright in a part of a surface is no firefly. */
+/* The mean of the others, or that by their nearness if it is larger: light that is bright in a part
+ * of a surface is no firefly. */
 static float mean_of_others(const ps_tile *tile, uint32_t lane, const float others[PS_TILE_PIXELS],
                             float count, const struct shares *shares)
 {
@@ -52,7 +53,8 @@ static float mean_of_others(const ps_tile *tile, uint32_t lane, const float othe
     return ps_max(sum / count, nearby / weight);
 }
 
-/* If a pixel exceeds `times` the mean of the others, notes what it keeps and what these get. Returns whether it does. */
+/* If a pixel exceeds `times` the mean of the others, notes what it keeps and what these get.
+ * Returns whether it does. */
 static bool share_out(const ps_tile *tile, uint32_t lane, float times, struct shares *shares)
 {
     float others[PS_TILE_PIXELS], count = find_others(tile, lane, others);
@@ -72,8 +74,9 @@ static bool share_out(const ps_tile *tile, uint32_t lane, float times, struct sh
     return true;
 }
 
-/* A cheap first test: whether at least two of the four neighbours in the tile are darker by that factor (the second darkest one, by minima and
- * maxima). Neighbours outside of the tile count as equally bright. */
+/* A cheap first test: whether at least two of the four neighbours in the tile are darker by that
+ * factor (the second darkest one, by minima and maxima). Neighbours outside of the tile count as
+ * equally bright. */
 static bool stands_out(const float bright[PS_TILE_PIXELS], uint32_t lane, float times)
 {
     uint32_t x = lane % PS_TILE_SIZE, y = lane / PS_TILE_SIZE, last = PS_TILE_SIZE - 1;

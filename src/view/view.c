@@ -6,11 +6,12 @@
 #include <psplat/path.h>
 #include <psplat/tile.h>
 
-/* Set of the numbers that choose a point of the lens; surfaces along the path take sets 0, 1, 2, ... */
+/* Set of the numbers that choose a point of the lens; surfaces along the path take sets 0, 1, 2,
+ * ... */
 #define LENS_SET 0x10000u
 
-/* The width of a camera ray's cone over the pixel's side (scene/ray_cone.h): textures are averaged over it. Finer detail is averaged by
- * the passes, which sample other points of the pixel. */
+/* The width of a camera ray's cone over the pixel's side (scene/ray_cone.h): textures are averaged
+ * over it. Finer detail is averaged by the passes, which sample other points of the pixel. */
 #define CONE_SIDE 0.125f
 
 /* Paths of a tile that are still under way. */
@@ -125,7 +126,8 @@ static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct c
     paths->count = left;
 }
 
-/* What gloss reflects of the lights; the diffuse part of these surfaces is left to where paths end. */
+/* What gloss reflects of the lights; the diffuse part of these surfaces is left to where paths
+ * end. */
 static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t depth,
                           const struct camera_paths *paths, const ps_hit *hits)
 {
@@ -144,8 +146,8 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
                     ps_rgb_multiply(paths->throughput[i], radiance[i]));
 }
 
-/* Stores the surface that stands for the pixel: the first glossy or partly diffuse one that path i leaves; or a mirror (`sharp`), until
- * the path ends at a surface. */
+/* Stores the surface that stands for the pixel: the first glossy or partly diffuse one that path i
+ * leaves; or a mirror (`sharp`), until the path ends at a surface. */
 static void note_gloss(const struct view_pass *pass, uint32_t tile,
                        const struct camera_paths *paths, size_t i, const ps_hit *hit, bool sharp)
 {
@@ -166,8 +168,8 @@ static void note_gloss(const struct view_pass *pass, uint32_t tile,
                              paths->travelled[i]);
 }
 
-/* Marks pixels whose path goes on stochastically, which take several samples. Glass does not stand for the pixel, as gloss does:
- * what is seen through it is sharp. */
+/* Marks pixels whose path goes on stochastically, which take several samples. Glass does not stand
+ * for the pixel, as gloss does: what is seen through it is sharp. */
 static void note_scattering(const struct view_pass *pass, uint32_t tile,
                             const struct camera_paths *paths, size_t i, const ps_hit *hit,
                             const ps_bsdf_sample *on)

@@ -21,8 +21,8 @@ static char *resolved(const char *folder)
     return realpath(*folder ? folder : ".", NULL);
 }
 
-/* How one folder is reached from another, which ends in a slash or is ""; to be freed. NULL: out of memory, or there
- * is no such folder. */
+/* How one folder is reached from another, which ends in a slash or is ""; to be freed. NULL: out of
+ * memory, or there is no such folder. */
 static char *path_between(const char *from, const char *to)
 {
     char *a = resolved(from), *b = resolved(to), *path = NULL;

@@ -15,8 +15,9 @@ struct import_paths {
 typedef ps_result (*import_convert)(void *user, const char *name, const struct file_text *text,
                                     const struct import_paths *paths, struct written_scene *scene);
 
-/* Converts the file at `path` and writes `output`, which ends in ".psd", and the files beside it (scene_files.h).
- * What is wrong with reading or writing goes to `error`, whose text is empty otherwise. */
+/* Converts the file at `path` and writes `output`, which ends in ".psd", and the files beside it
+ * (scene_files.h). What is wrong with reading or writing goes to `error`, whose text is empty
+ * otherwise. */
 ps_result import_file(const char *path, const char *output, import_convert convert, void *user,
                       struct error *error);
 

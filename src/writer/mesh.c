@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A mesh of more becomes a file: it would be no text to read. So does each of many: a scene's text has its limit. */
+/* A mesh of more becomes a file: it would be no text to read. So does each of many: a scene's text
+ * has its limit. */
 #define INLINE_TRIANGLES 64
 #define INLINE_NUMBERS ((size_t)1500000) /* of all meshes in the text */
 
@@ -63,7 +64,8 @@ double mesh_area(const struct mesh *mesh, const struct transform *placement)
     return area;
 }
 
-/* --- writing -------------------------------------------------------------------------------------- */
+/* --- writing
+ * -------------------------------------------------------------------------------------- */
 
 static void put_vectors(FILE *out, const char *key, const struct vector *values, size_t count)
 {

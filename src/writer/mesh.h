@@ -1,7 +1,7 @@
 /* mesh.h: triangle meshes on their way into the scene.
  *
- * In the space of the object; the front of a triangle is where its vertices run counter-clockwise in right-handed
- * coordinates: (p1 - p0) x (p2 - p0).
+ * In the space of the object; the front of a triangle is where its vertices run counter-clockwise
+ * in right-handed coordinates: (p1 - p0) x (p2 - p0).
  */
 #ifndef WRITER_MESH_H
 #define WRITER_MESH_H
@@ -32,12 +32,12 @@ void mesh_turn_to_normals(struct mesh *mesh);
 /* Of all triangles, placed. */
 double mesh_area(const struct mesh *mesh, const struct transform *placement);
 
-/* Writes the beginning of an object, up to its material: small meshes as text, large ones as a PLY file beside the
- * scene, whose name begins with `base`. False: out of memory. */
+/* Writes the beginning of an object, up to its material: small meshes as text, large ones as a PLY
+ * file beside the scene, whose name begins with `base`. False: out of memory. */
 bool mesh_put(struct scene_text *scene, const char *base, FILE *out, const struct mesh *mesh);
 
-/* The file's bytes, to be freed; NULL: out of memory. Binary little-endian PLY (G. Turk, "The PLY polygon file
- * format", 1994): x y z, nx ny nz, u v as floats, faces of three indices. */
+/* The file's bytes, to be freed; NULL: out of memory. Binary little-endian PLY (G. Turk, "The PLY
+ * polygon file format", 1994): x y z, nx ny nz, u v as floats, faces of three indices. */
 void *mesh_to_ply(const struct mesh *mesh, size_t *size);
 
 /* A surface by two parameters, each 0..1; the front is along d/du cross d/dv. */

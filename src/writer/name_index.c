@@ -1,4 +1,5 @@
-/* name_index.c: see name_index.h. A hash table of chains, each from its latest entry to its first. */
+/* name_index.c: see name_index.h. A hash table of chains, each from its latest entry to its
+ * first. */
 #include "writer/name_index.h"
 
 #include "base/digest.h"

@@ -1,6 +1,7 @@
 /* name_index.h: finds entries of a growing list by their hash, the latest first.
  *
- * The list is the caller's, who compares what is found. Entries are added and removed at the end. One thread at a time.
+ * The list is the caller's, who compares what is found. Entries are added and removed at the end.
+ * One thread at a time.
  */
 #ifndef WRITER_NAME_INDEX_H
 #define WRITER_NAME_INDEX_H
@@ -26,7 +27,8 @@ bool name_index_add(struct name_index *index, uint64_t hash);
 /* Removes the last ones. */
 void name_index_cut(struct name_index *index, size_t count);
 
-/* The latest entry of that hash; then the one before an entry, of the same hash. NAME_INDEX_NONE: there is none. */
+/* The latest entry of that hash; then the one before an entry, of the same hash. NAME_INDEX_NONE:
+ * there is none. */
 size_t name_index_find(const struct name_index *index, uint64_t hash);
 size_t name_index_before(const struct name_index *index, size_t entry);
 

@@ -50,8 +50,8 @@ void *mesh_to_ply(const struct mesh *mesh, size_t *size)
         if (mesh->uv)
             at = put_float(put_float(at, mesh->uv[i][0]), mesh->uv[i][1]);
     }
-    /* assimp takes a line end in the first byte for the header's, and is off by it from there on: the last bit of a
-     * float goes for that. */
+    /* assimp takes a line end in the first byte for the header's, and is off by it from there on:
+     * the last bit of a float goes for that. */
     if (mesh->vertex_count > 0 && (bytes[length] == '\n' || bytes[length] == '\r'))
         bytes[length]++;
     for (size_t i = 0; i < mesh->triangle_count; i++) {

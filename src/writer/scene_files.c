@@ -1,8 +1,9 @@
 /* scene_files.c: see scene_files.h.
  *
- * The files beside the scene are made in a folder of their own, and moved out of it when all are whole, and the scene's
- * text is written too: an import that fails leaves the files of an earlier one as they are, unless one can't be moved.
- * The folder goes away again, but for an import that is killed: it leaves the folder, with what it made so far.
+ * The files beside the scene are made in a folder of their own, and moved out of it when all are
+ * whole, and the scene's text is written too: an import that fails leaves the files of an earlier
+ * one as they are, unless one can't be moved. The folder goes away again, but for an import that is
+ * killed: it leaves the folder, with what it made so far.
  */
 #include "writer/scene_files.h"
 
@@ -26,10 +27,11 @@ static char *path_in(const char *folder, const char *name)
     return path;
 }
 
-/* --- files that the scene names ------------------------------------------------------------------- */
+/* --- files that the scene names
+ * ------------------------------------------------------------------- */
 
-/* The path without links, of a file that need not be there; to be freed. NULL: out of memory, or its folder is not
- * there either. */
+/* The path without links, of a file that need not be there; to be freed. NULL: out of memory, or
+ * its folder is not there either. */
 static char *canonical(const char *path)
 {
     char *whole = realpath(path, NULL), *folder = NULL;
@@ -107,7 +109,8 @@ static ps_result check_targets(const struct written_scene *scene, const char *in
     return result;
 }
 
-/* --- writing -------------------------------------------------------------------------------------- */
+/* --- writing
+ * -------------------------------------------------------------------------------------- */
 
 /* Leaves the file open, to be committed or discarded; not PS_OK: it is discarded. */
 static ps_result start_file(struct output_file *file, const char *path, const void *bytes,

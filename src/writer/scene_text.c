@@ -18,7 +18,8 @@ bool scene_text_grow(void **items, size_t *capacity, size_t wanted, size_t size)
     return true;
 }
 
-/* --- buffers -------------------------------------------------------------------------------------- */
+/* --- buffers
+ * -------------------------------------------------------------------------------------- */
 
 bool text_buffer_open(struct text_buffer *buffer)
 {
@@ -151,7 +152,8 @@ bool scene_text_finish(struct scene_text *scene, const char *comment, struct wri
     return true;
 }
 
-/* --- names ---------------------------------------------------------------------------------------- */
+/* --- names
+ * ---------------------------------------------------------------------------------------- */
 
 static struct scene_name *find_name(const struct scene_text *scene, const char *name)
 {

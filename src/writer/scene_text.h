@@ -1,7 +1,8 @@
 /* scene_text.h: the .psd text that is made, section by section (psd(5)).
  *
- * Sections are streams in memory, put together at the end, since scenes of other renderers state them in any order. The first
- * failure, of memory, shows in scene_text_finish. Owned by a converter; one thread.
+ * Sections are streams in memory, put together at the end, since scenes of other renderers state
+ * them in any order. The first failure, of memory, shows in scene_text_finish. Owned by a
+ * converter; one thread.
  */
 #ifndef WRITER_SCENE_TEXT_H
 #define WRITER_SCENE_TEXT_H
@@ -59,17 +60,19 @@ void scene_text_release(struct scene_text *scene);
 /* Puts the sections together. False: out of memory. */
 bool scene_text_finish(struct scene_text *scene, const char *comment, struct written_scene *result);
 
-/* How many values YAML finds in a text of this form: one for each opening, comma and colon, and two for a line. */
+/* How many values YAML finds in a text of this form: one for each opening, comma and colon, and two
+ * for a line. */
 size_t scene_text_values(const char *text);
 
-/* A name that was not given before, near to the wanted one; owned by the scene. NULL: out of memory. */
+/* A name that was not given before, near to the wanted one; owned by the scene. NULL: out of
+ * memory. */
 const char *scene_text_name(struct scene_text *scene, const char *wanted);
 
 /* The name of the material of that text, which is added where it is new. NULL: out of memory. */
 const char *scene_text_material(struct scene_text *scene, const char *wanted, const char *text);
 
-/* A new file beside the scene, named BASE-WHAT-NUMBER.SUFFIX; its contents are for the caller to put in. NULL: out of
- * memory. */
+/* A new file beside the scene, named BASE-WHAT-NUMBER.SUFFIX; its contents are for the caller to
+ * put in. NULL: out of memory. */
 struct side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
                                   const char *suffix);
 

@@ -1,4 +1,5 @@
-/* written_scene.h: what a converter of another renderer's scenes makes: a .psd text and the files beside it.
+/* written_scene.h: what a converter of another renderer's scenes makes: a .psd text and the files
+ * beside it.
  *
  * Owned by the caller; no state elsewhere.
  */

@@ -116,10 +116,10 @@ run 1 $job --checkpoint cut.exr --resume -o other.png
 expect_text err "cannot read 'cut.exr'"
 # shellcheck disable=SC2086
 run 2 $job --resume
-expect_text err "--resume: which film? Name it with --checkpoint."
+expect_text err "--resume needs --checkpoint FILE.exr, which names the film"
 # shellcheck disable=SC2086
 run 2 $job --checkpoint-every 5s
-expect_text err "--checkpoint-every: which film?"
+expect_text err "--checkpoint-every needs --checkpoint FILE.exr"
 # shellcheck disable=SC2086
 run 2 $job --checkpoint film.png
 expect_text err "--checkpoint: a film needs a name that ends in .exr"

@@ -1,4 +1,5 @@
-/* external.h: for tests of files that psplat does not ship, in the folder that $PSPLAT_SHARED names. */
+/* external.h: for tests of files that psplat does not ship, in the folder that $PSPLAT_SHARED
+ * names. */
 #ifndef TESTS_EXTERNAL_H
 #define TESTS_EXTERNAL_H
 

@@ -1,11 +1,11 @@
-/* test_reference.c: path tracing and splatting against pictures that renderers written elsewhere made
- * of the same box.
+/* test_reference.c: path tracing and splatting against pictures that renderers written elsewhere
+ * made of the same box.
  *
  * $PSPLAT_SHARED/reference/cornell, 800x450, direct light, one bounce, all bounces: B_*.exr of the
- * spot-lit Cornell box, A_*.exr of the box under its lamp, whose pixels, as bright as it is, are left
- * out with those beside them. Path tracing's means must agree within a thousandth in each channel,
- * and no block of 25 x 25 pixels may be off by more than its noise and its anti-aliased edges explain.
- * Splatting's means must agree within its own bias.
+ * spot-lit Cornell box, A_*.exr of the box under its lamp, whose pixels, as bright as it is, are
+ * left out with those beside them. Path tracing's means must agree within a thousandth in each
+ * channel, and no block of 25 x 25 pixels may be off by more than its noise and its anti-aliased
+ * edges explain. Splatting's means must agree within its own bias.
  */
 #include "external.h"
 #include "image/image.h"

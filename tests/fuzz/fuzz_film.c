@@ -1,7 +1,9 @@
-/* fuzz_film.c: feeds arbitrary bytes to the reader of films, and through it to that of OpenEXR files (libFuzzer).
+/* fuzz_film.c: feeds arbitrary bytes to the reader of films, and through it to that of OpenEXR
+ * files (libFuzzer).
  *
- * Beyond crashes and leaks it checks the reader's promises: a failure says why and leaves nothing; a film has passes and
- * the planes that a picture is made of, adds up with none, and is read back as it is written.
+ * Beyond crashes and leaks it checks the reader's promises: a failure says why and leaves nothing;
+ * a film has passes and the planes that a picture is made of, adds up with none, and is read back
+ * as it is written.
  */
 #include "job/film_file.h"
 

@@ -1,11 +1,12 @@
 /* fuzz_mesh.c: feeds arbitrary bytes to the mesh importer (libFuzzer).
  *
- * The first byte chooses the format, and what to ask for; the rest is the file. After "\n%%\n" comes
- * its companion: the MTL of an OBJ, the .bin of a glTF. Nothing is read from the disk. assimp may crash on
- * what it is given, in the importer's child; the importer may not, and must keep its promise: every index
- * of the fragment is in range, every number finite, and a failure says why and leaves nothing. No
- * coverage comes back from the child, so inputs are changes of the corpus and little else: sound files of
- * each format, and what broke the importer once, in tests/fuzz/corpus_mesh.
+ * The first byte chooses the format, and what to ask for; the rest is the file. After "\n%%\n"
+ * comes its companion: the MTL of an OBJ, the .bin of a glTF. Nothing is read from the disk. assimp
+ * may crash on what it is given, in the importer's child; the importer may not, and must keep its
+ * promise: every index of the fragment is in range, every number finite, and a failure says why and
+ * leaves nothing. No coverage comes back from the child, so inputs are changes of the corpus and
+ * little else: sound files of each format, and what broke the importer once, in
+ * tests/fuzz/corpus_mesh.
  */
 #include "import/import.h"
 

@@ -1,9 +1,9 @@
 /* fuzz_pbrt.c: feeds arbitrary bytes to the converter of pbrt scenes (libFuzzer).
  *
- * The first byte chooses the version: 3, 4, or as the words tell. Files are refused: the only folder to read from is
- * one that is not there. Beyond crashes and leaks it checks the converter's promises: a failure has an error in the
- * sink and leaves nothing, a success has none, and the scene that it makes is one that psplat reads, where no file
- * beside it is needed for that.
+ * The first byte chooses the version: 3, 4, or as the words tell. Files are refused: the only
+ * folder to read from is one that is not there. Beyond crashes and leaks it checks the converter's
+ * promises: a failure has an error in the sink and leaves nothing, a success has none, and the
+ * scene that it makes is one that psplat reads, where no file beside it is needed for that.
  */
 #include "pbrt/pbrt.h"
 

@@ -1,9 +1,9 @@
 /* fuzz_pov.c: feeds arbitrary bytes to the converter of POV-Ray scenes (libFuzzer).
  *
- * Files are refused: the only folder to read from is one that is not there. Tokens and memory are limited, so that what
- * does not end does so soon. Beyond crashes and leaks it checks the converter's promises: a failure has an error in the
- * sink and leaves nothing, a success has none, and the scene that it makes is one that psplat reads, where no file
- * beside it is needed for that.
+ * Files are refused: the only folder to read from is one that is not there. Tokens and memory are
+ * limited, so that what does not end does so soon. Beyond crashes and leaks it checks the
+ * converter's promises: a failure has an error in the sink and leaves nothing, a success has none,
+ * and the scene that it makes is one that psplat reads, where no file beside it is needed for that.
  */
 #include "pov/pov.h"
 

@@ -2,12 +2,12 @@
  *
  *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_psd tests/fuzz/corpus_psd
  *
- * The parser reads no files here. Lines of "%%%%%%" cut an input into pieces: the first is the scene,
- * the next what it finds in every file that it includes, and any further ones what --set is given;
- * --param is given the scene's own parameters n and s.
- * Beyond crashes and leaks it checks the parser's promise: a failure has an error in the sink, a
- * success has none and holds what a scene needs; and the formatter's: what is laid out means the same,
- * and stays as it is when it is laid out again.
+ * The parser reads no files here. Lines of "%%%%%%" cut an input into pieces: the first is the
+ * scene, the next what it finds in every file that it includes, and any further ones what --set is
+ * given; --param is given the scene's own parameters n and s. Beyond crashes and leaks it checks
+ * the parser's promise: a failure has an error in the sink, a success has none and holds what a
+ * scene needs; and the formatter's: what is laid out means the same, and stays as it is when it is
+ * laid out again.
  */
 #include "parser/format.h"
 #include "parser/psd.h"

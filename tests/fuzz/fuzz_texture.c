@@ -4,7 +4,8 @@
  *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_texture tests/fuzz/corpus_texture
  *
  * Beyond crashes and leaks it checks the readers' promises: a failure says why, after the path; a
- * success has a size within the limits and finite colours everywhere, and line by line the same samples.
+ * success has a size within the limits and finite colours everywhere, and line by line the same
+ * samples.
  */
 #include "scene/mip_map.h"
 

@@ -6,13 +6,14 @@
  *                 L / 2 (a / p atan(b / p) + b / q atan(a / q)), p^2 = 1 + a^2, q^2 = 1 + b^2;
  *                 other places are sums and differences of corners
  *     disc        coaxial: pi L r^2 / (h^2 + r^2); at distance x from the axis
- *                 pi L / 2 (1 - (1 + H^2 - R^2) / sqrt((1 + H^2 + R^2)^2 - 4 R^2)), H = h / x, R = r / x
+ *                 pi L / 2 (1 - (1 + H^2 - R^2) / sqrt((1 + H^2 + R^2)^2 - 4 R^2)),
+ *                 H = h / x, R = r / x
  *     sphere      all of it above the horizon, at distance d: pi L (r / d)^2 cos(t)
  *     sun         given by its irradiance across the beam: E cos(t), if all is above the horizon
  *     sky         pi L
  *
- * Radiance is a / pi E. The shadow of a straight edge at height e under a lamp of width w at height h
- * has a penumbra from full light to none of width w e / (h - e).
+ * Radiance is a / pi E. The shadow of a straight edge at height e under a lamp of width w at height
+ * h has a penumbra from full light to none of width w e / (h - e).
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"

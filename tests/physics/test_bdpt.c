@@ -1,8 +1,10 @@
-/* test_bdpt.c: bidirectional path tracing: each way of finding light alone, and all of them weighed, have one mean.
+/* test_bdpt.c: bidirectional path tracing: each way of finding light alone, and all of them
+ * weighed, have one mean.
  *
- * Weights that do not add up to 1 for some path, because two sides see another density, show as light that is missing or
- * is counted twice. A point light of intensity I in the middle of a sphere of radius r and albedo a gives a / pi times
- * E0 = I / r^2 times the sum of a^k over the bounces k; other lights and surfaces are compared with path tracing.
+ * Weights that do not add up to 1 for some path, because two sides see another density, show as
+ * light that is missing or is counted twice. A point light of intensity I in the middle of a sphere
+ * of radius r and albedo a gives a / pi times E0 = I / r^2 times the sum of a^k over the bounces k;
+ * other lights and surfaces are compared with path tracing.
  */
 #include "support/lit_room.h"
 #include "support/render_scene.h"
@@ -30,8 +32,8 @@ static struct estimate measure(const char *text, const char *estimator, const ch
     return estimate_channel(text, choices, "indirect.G", SEEDS);
 }
 
-/* The scene in a larger picture than SCENE_HEAD has: at its borders light tracing takes in what lies half a pixel
- * beyond. */
+/* The scene in a larger picture than SCENE_HEAD has: at its borders light tracing takes in what
+ * lies half a pixel beyond. */
 static void enlarge(const char *scene, char text[4096])
 {
     static const char small[] = "width: 16, height: 9}";
@@ -73,8 +75,8 @@ static void test_each_strategy_in_a_sphere(void **state)
         }
 }
 
-/* Of radiance L that shines to its inside: E = pi L directly, and albedo times that with each bounce. Light paths start on
- * the very surface that they meet. */
+/* Of radiance L that shines to its inside: E = pi L directly, and albedo times that with each
+ * bounce. Light paths start on the very surface that they meet. */
 static void test_shining_sphere(void **state)
 {
     (void)state;
@@ -91,7 +93,8 @@ static void test_shining_sphere(void **state)
 
 #define SEEDED "render: {seed: %d, passes: 8}\n"
 
-/* Where light tracing finds all light; at corners of pixels that show two surfaces it is not exact. */
+/* Where light tracing finds all light; at corners of pixels that show two surfaces it is not
+ * exact. */
 static void test_each_strategy_by_lights(void **state)
 {
     (void)state;
@@ -115,7 +118,8 @@ static void test_each_strategy_by_lights(void **state)
     }
 }
 
-/* Surfaces with more than one lobe: which scatterings count as bounces. A lamp with a pattern, so that its points differ. */
+/* Surfaces with more than one lobe: which scatterings count as bounces. A lamp with a pattern, so
+ * that its points differ. */
 #define ROOM(FLOOR)                                                                                \
     SCENE_HEAD                                                                                     \
     "  lamp: {diffuse: 0.3, emission: {checker: {colors: [0, [9, 8, 7]], scale: 0.17}}}\n"         \

@@ -1,11 +1,11 @@
-/* test_camera.c: what cameras, lenses and pixel filters make of a disc of radius r and radiance 1 on
- * black, which lies across the view at distance z.
+/* test_camera.c: what cameras, lenses and pixel filters make of a disc of radius r and radiance 1
+ * on black, which lies across the view at distance z.
  *
- * The mean of the picture is the disc's share of it: of width w and height h at distance z, pi r^2 /
- * (w h). A lens of radius a that is focused at distance f turns each point of the disc's edge into a
- * disc of radius b = a |z - f| / f, measured where the disc lies: full light up to r - b, none from r + b
- * on, and in focus what a pinhole shows. All points of the lens see the disc equally large, so that the
- * mean stays; it also stays with any pixel filter.
+ * The mean of the picture is the disc's share of it: of width w and height h at distance z, pi r^2
+ * / (w h). A lens of radius a that is focused at distance f turns each point of the disc's edge
+ * into a disc of radius b = a |z - f| / f, measured where the disc lies: full light up to r - b,
+ * none from r + b on, and in focus what a pinhole shows. All points of the lens see the disc
+ * equally large, so that the mean stays; it also stays with any pixel filter.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -1,19 +1,21 @@
 /* test_caustic.c: light that mirrors and glass throw on a floor.
  *
- * A plane mirror of reflectance k: what it throws on a floor point comes from the lamp's image behind
- * it, a sphere of radiance k L and radius r at distance d: E = pi k L (r / d)^2 cos(t), while all of
- * the image is seen in the mirror. A vertical mirror throws no light of the floor back to it.
+ * A plane mirror of reflectance k: what it throws on a floor point comes from the lamp's image
+ * behind it, a sphere of radiance k L and radius r at distance d: E = pi k L (r / d)^2 cos(t),
+ * while all of the image is seen in the mirror. A vertical mirror throws no light of the floor back
+ * to it.
  *
- * A plate of glass under the sun: with reflectance R of one border (Fresnel) and A = exp(-absorption *
- * length of the way through) it lets through T = (1 - R)^2 A / (1 - R^2 A^2), all reflections inside
- * taken together. A sun of half angle s and irradiance 1 gives the mean of T over its disc, weighed
- * with the cosine.
+ * A plate of glass under the sun: with reflectance R of one border (Fresnel) and A =
+ * exp(-absorption * length of the way through) it lets through T = (1 - R)^2 A / (1 - R^2 A^2), all
+ * reflections inside taken together. A sun of half angle s and irradiance 1 gives the mean of T
+ * over its disc, weighed with the cosine.
  *
  * A glass ball: path tracing is the truth. The camera does not see what is above the floor.
  *
  * A room whose sun shines through a pane of glass has the light that photons bring.
  *
- * The focus of a glass ball is as bright with the automatic radius as with a tiny one and many photons.
+ * The focus of a glass ball is as bright with the automatic radius as with a tiny one and many
+ * photons.
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"
@@ -215,7 +217,8 @@ static const struct method agreeing[] = {
      {"estimator=photonmap:neighbours=500,max_radius=0.05,filter=box",
       "injection=photon:count=200000", "bounces=all", NULL},
      0.015},
-    /* The mean over the pixels, where path tracing takes their middles: 1.7 % apart in the focus of the ball. */
+    /* The mean over the pixels, where path tracing takes their middles: 1.7 % apart in the focus of
+     * the ball. */
     {"bdpt", {"estimator=bdpt:samples=128", "bounces=all", NULL}, 0.02},
 };
 
@@ -250,7 +253,8 @@ static void test_metal_ring(void **state)
 
 /* --- focus ---------------------------------------------------------------------------------- */
 
-/* A ball of radius R and n = 1.5 has its focus 1.5 R from its centre. The scene is large, as rooms are. */
+/* A ball of radius R and n = 1.5 has its focus 1.5 R from its centre. The scene is large, as rooms
+ * are. */
 static const char focus[] =
     "psd: 1\n"
     "camera: {location: [0, 0.1, 0], look_at: [0, 0, 0], up: [0, 0, -1],\n"
@@ -291,7 +295,8 @@ static void test_focus(void **state)
 
 /* --- window --------------------------------------------------------------------------------- */
 
-/* A room that gets all of its light through a pane of glass: the sky's, and that of a sun, which paths find by chance. */
+/* A room that gets all of its light through a pane of glass: the sky's, and that of a sun, which
+ * paths find by chance. */
 static const char window[] =
     "psd: 1\n"
     "camera: {location: [0.2, 1.5, 2.7], look_at: [0, 1.1, -2], angle: 65}\n"
@@ -317,7 +322,8 @@ static const char window[] =
     "  - box: {corners: [[-2.02, 0.8, -1], [-2.0, 2.2, 1]], material: glass}\n"
     "render: {seed: %d, passes: 2, aa_samples: 1}\n";
 
-/* That of photons alone is the truth: single passes have neither too little of the sun nor, seldom, far too much. */
+/* That of photons alone is the truth: single passes have neither too little of the sun nor, seldom,
+ * far too much. */
 static void test_window(void **state)
 {
     (void)state;

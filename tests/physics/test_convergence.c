@@ -1,6 +1,6 @@
-/* test_convergence.c: pictures come closer to those of the reference strategy as the resolution of an
- * approximate one grows: stratifications to `none`, visibilities to `raycast`, injections to `photon`.
- * That fine cells merge nothing at all is the subject of test_merging.c.
+/* test_convergence.c: pictures come closer to those of the reference strategy as the resolution of
+ * an approximate one grows: stratifications to `none`, visibilities to `raycast`, injections to
+ * `photon`. That fine cells merge nothing at all is the subject of test_merging.c.
  */
 #include "support/render_scene.h"
 #include <math.h>

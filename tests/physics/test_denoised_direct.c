@@ -1,8 +1,8 @@
-/* test_denoised_direct.c: direct light through a denoiser that asks for it (PS_DENOISER_DIRECT): soft shadows have
- * less noise and the same mean; what has no noise stays as it is.
+/* test_denoised_direct.c: direct light through a denoiser that asks for it (PS_DENOISER_DIRECT):
+ * soft shadows have less noise and the same mean; what has no noise stays as it is.
  *
- * A floor under a rectangular lamp and under a lamp without a size, of half the light each, with a box on it: a
- * penumbra across a hard shadow.
+ * A floor under a rectangular lamp and under a lamp without a size, of half the light each, with a
+ * box on it: a penumbra across a hard shadow.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -129,8 +129,8 @@ static void test_hard_shadows_stay(void **state)
     rendering_release(&after);
 }
 
-/* Under a noisy sky the edges of a sun's shadows stay where they are: off by less than half of what a denoiser of the
- * whole direct light leaves (4 %). */
+/* Under a noisy sky the edges of a sun's shadows stay where they are: off by less than half of what
+ * a denoiser of the whole direct light leaves (4 %). */
 static void test_hard_shadows_stay_under_a_noisy_sky(void **state)
 {
     (void)state;
@@ -183,7 +183,8 @@ static void test_threads_do_not_matter(void **state)
     rendering_release(&three);
 }
 
-/* A sphere of albedo 0.4 before a sky of radiance 1: what is partly sky is no brighter than the sky. */
+/* A sphere of albedo 0.4 before a sky of radiance 1: what is partly sky is no brighter than the
+ * sky. */
 static void test_silhouettes_before_the_sky(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* test_denoised_error.c: the error behind denoiser=regression, against path tracing, whose own noise two halves tell: the
- * layer `error` says it within a factor of 1.5 over each picture, and adaptive sampling makes it less.
+/* test_denoised_error.c: the error behind denoiser=regression, against path tracing, whose own
+ * noise two halves tell: the layer `error` says it within a factor of 1.5 over each picture, and
+ * adaptive sampling makes it less.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -1,8 +1,9 @@
-/* test_denoised_gloss.c: the indirect light of gloss in which the sky is mirrored, of one pass through a denoiser; and
- * of glass, without one.
+/* test_denoised_gloss.c: the indirect light of gloss in which the sky is mirrored, of one pass
+ * through a denoiser; and of glass, without one.
  *
- * A path from a pixel of the floor, or of the glass, goes on to the wall or past it to the sky, by chance, and has no
- * indirect light there. Light is even (estimator `ambient`), so that all that pixels differ by is this chance.
+ * A path from a pixel of the floor, or of the glass, goes on to the wall or past it to the sky, by
+ * chance, and has no indirect light there. Light is even (estimator `ambient`), so that all that
+ * pixels differ by is this chance.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -26,7 +26,8 @@ struct method {
 };
 
 /* A lamp at the centre of a diffuse sphere of albedo a (see test_furnace.c): n bounces give the
- * radiance a / pi * (a + ... + a^n), all of them a / pi * a / (1 - a), for a lamp that gives irradiance 1. */
+ * radiance a / pi * (a + ... + a^n), all of them a / pi * a / (1 - a), for a lamp that gives
+ * irradiance 1. */
 static const char furnace[] =
     "psd: 1\n"
     "camera: {location: [0, 0, 0], look_at: [1, 0.3, 0.2], angle: 90}\n"

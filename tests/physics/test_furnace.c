@@ -81,9 +81,9 @@ static void test_russian_roulette_keeps_the_mean(void **state)
     expect_mean("0.6", "injection=photon:count=200000,roulette=1", "bounces=3", 0.6 + 0.36 + 0.216);
 }
 
-/* A closed box whose walls all shine alike, of albedo 1/2 and radiance 1: after one bounce each point of it
- * sends back 1/4, whatever the size of splats and of texels beside it. (What is lost is 0.4 %, and
- * noise 0.2 %; in one pass of 400,000 paths it is 0.5 %.) */
+/* A closed box whose walls all shine alike, of albedo 1/2 and radiance 1: after one bounce each
+ * point of it sends back 1/4, whatever the size of splats and of texels beside it. (What is lost is
+ * 0.4 %, and noise 0.2 %; in one pass of 400,000 paths it is 0.5 %.) */
 static void test_even_light_in_a_box(void **state)
 {
     (void)state;

@@ -1,6 +1,8 @@
-/* test_guided_gather.c: gather rays drawn where those before them found light, and how both are combined.
+/* test_guided_gather.c: gather rays drawn where those before them found light, and how both are
+ * combined.
  *
- * A wall that no lamp reaches sees a small lit patch of the floor: by the cosine one ray in ten finds it.
+ * A wall that no lamp reaches sees a small lit patch of the floor: by the cosine one ray in ten
+ * finds it.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -41,8 +43,8 @@ static double grain_by(const char *estimator)
     return grain;
 }
 
-/* Four rays by the cosine, and as many guided ones, whose noise is a fifth. As plain means of all eight they would have
- * half of the noise of the four. */
+/* Four rays by the cosine, and as many guided ones, whose noise is a fifth. As plain means of all
+ * eight they would have half of the noise of the four. */
 static void test_guided_rays_count_by_their_pdf(void **state)
 {
     (void)state;
@@ -56,7 +58,8 @@ static void test_guided_rays_count_by_their_pdf(void **state)
     assert_true(shared_out < 0.38 * unguided);
 }
 
-/* A ball across the edge of its shade, in one tile: the patch of floor that lights it lies below the horizon of half of the pixels. */
+/* A ball across the edge of its shade, in one tile: the patch of floor that lights it lies below
+ * the horizon of half of the pixels. */
 static const char ball[] =
     "psd: 1\n"
     "camera: {location: [0, 2, 6], look_at: [0.25, 1.75, 0.93], angle: 8}\n"
@@ -69,7 +72,8 @@ static const char ball[] =
     "  - sphere: {center: [0, 2, 0], radius: 1, material: white}\n"
     "render: {bounces: 1, passes: 1}\n";
 
-/* Rays of a guide that faced as the first pixel does would find all light of some pixels by the cosine alone. */
+/* Rays of a guide that faced as the first pixel does would find all light of some pixels by the
+ * cosine alone. */
 static void test_guides_of_bent_surfaces(void **state)
 {
     (void)state;

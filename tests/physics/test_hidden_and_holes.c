@@ -1,8 +1,8 @@
 /* test_hidden_and_holes.c: what the camera does not see, and what is not there.
  *
- * An object with "camera: no" is not in the picture, but shadows and lights as if it were. A screen of
- * which a fine checker takes away half lets half of the light through, in shadow rays as for photons,
- * and a lamp with such holes shines half as much, whoever asks.
+ * An object with "camera: no" is not in the picture, but shadows and lights as if it were. A screen
+ * of which a fine checker takes away half lets half of the light through, in shadow rays as for
+ * photons, and a lamp with such holes shines half as much, whoever asks.
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"
@@ -18,8 +18,8 @@
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define SEEDS 5
 
-/* A floor under a lamp, with something between, seen from right above the floor and therefore without
- * it. The checker has holes of 1 / 40; the lamp is large beside what these shade. */
+/* A floor under a lamp, with something between, seen from right above the floor and therefore
+ * without it. The checker has holes of 1 / 40; the lamp is large beside what these shade. */
 #define SCENE                                                                                      \
     "psd: 1\n"                                                                                     \
     "camera: {location: [0, %s, 0], look_at: [0, 0, 0], up: [0, 0, -1],\n"                         \
@@ -139,8 +139,9 @@ static void test_holes_let_half_of_the_light_through(void **state)
                      times(0.5, direct_light("floor", "lamp", "")), 0.01);
 }
 
-/* Light that comes through twice, off a white ceiling over the screen, which the lamp lights from
- * below: a screen of black halves dims the floor's light to half, and nothing comes back from it. */
+/* Light that comes through twice, off a white ceiling over the screen, which the lamp lights
+ * from below: a screen of black halves dims the floor's light to half, and nothing comes back
+ * from it. */
 #define CEILING                                                                                    \
     "  - quad: {corners: [[-2, 3, 2], [2, 3, 2], [2, 3, -2], [-2, 3, -2]], material: white}\n"     \
     "  - quad: {corners: [[-0.5, 2.1, 0.5], [0.5, 2.1, 0.5], [0.5, 2.1, -0.5],"                    \

@@ -1,5 +1,6 @@
-/* test_importance.c: light paths go where the camera looks: in a building of many rooms, of which it sees one, splats are
- * nearly as good as in that room alone, and have the same mean as path tracing.
+/* test_importance.c: light paths go where the camera looks: in a building of many rooms, of which
+ * it sees one, splats are nearly as good as in that room alone, and have the same mean as path
+ * tracing.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -1,6 +1,6 @@
-/* test_injections.c: the pictures that other injections than `photon` make of the Cornell box: their mean
- * against path tracing, and independence of threads and batches. Their photons alone are the subject of
- * tests/unit/test_injection_*.c.
+/* test_injections.c: the pictures that other injections than `photon` make of the Cornell box:
+ * their mean against path tracing, and independence of threads and batches. Their photons alone are
+ * the subject of tests/unit/test_injection_*.c.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -1,9 +1,10 @@
 /* test_instance.c: an instance is what its objects would be where it stands.
  *
- * A group of objects of every kind of surface, one of which shines in a pattern, placed by an instance,
- * against the same objects in a group of their own, whose patterns are placed by hand. Random numbers
- * are the same, so that the pictures are too, but for paths that rounding sends another way. There is one light: among
- * several, paths choose by what a pilot finds (importance.h), which such a path changes for all others.
+ * A group of objects of every kind of surface, one of which shines in a pattern, placed by an
+ * instance, against the same objects in a group of their own, whose patterns are placed by hand.
+ * Random numbers are the same, so that the pictures are too, but for paths that rounding sends
+ * another way. There is one light: among several, paths choose by what a pilot finds
+ * (importance.h), which such a path changes for all others.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -1,12 +1,16 @@
-/* test_light_propagation.c: the estimator `lpv` on open planes: a floor that a spotlight lights, and a plate above it.
+/* test_light_propagation.c: the estimator `lpv` on open planes: a floor that a spotlight lights,
+ * and a plate above it.
  *
- * A spotlight of intensity I and half angle a at height l lights the floor with I l / (r^2 + l^2)^(3/2); of albedo k, this
- * gives the point of the plate above it, at height h,
+ * A spotlight of intensity I and half angle a at height l lights the floor with I l / (r^2 +
+ * l^2)^(3/2); of albedo k, this gives the point of the plate above it, at height h,
  *
- *     E = integral over r of 2 k h^2 / (r^2 + h^2)^2 * I l / (r^2 + l^2)^(3/2) r dr,   r < l tan(a).
+ *     E = integral over r of 2 k h^2 / (r^2 + h^2)^2 * I l / (r^2 + l^2)^(3/2) r dr
  *
- * Cells pass light on into all directions that order 1 knows, so light goes astray on its way, the more, the more cells
- * are in between: two cells away a quarter is missing, six cells away two thirds.
+ * for r < l tan(a).
+ *
+ * Cells pass light on into all directions that order 1 knows, so light goes astray on its way, the
+ * more, the more cells are in between: two cells away a quarter is missing, six cells away two
+ * thirds.
  */
 #include "support/statistics_of.h"
 #include <math.h>

@@ -1,5 +1,6 @@
-/* test_light_threshold.c: light below the threshold (scene/light_bvh.h), which few points ask for, has the mean that it has
- * where all ask: on matt surfaces, and on gloss, which weighs lights that were drawn against lights that were hit.
+/* test_light_threshold.c: light below the threshold (scene/light_bvh.h), which few points ask for,
+ * has the mean that it has where all ask: on matt surfaces, and on gloss, which weighs lights that
+ * were drawn against lights that were hit.
  */
 #include "support/reflected_light.h"
 #include "support/render_scene.h"

@@ -1,7 +1,8 @@
-/* test_many_lights.c: pictures whose points draw some of the lights have the mean of those whose points ask all of them.
+/* test_many_lights.c: pictures whose points draw some of the lights have the mean of those whose
+ * points ask all of them.
  *
- * Direct light, light at the end of paths, splats, and gloss, which weighs a light that was drawn against one that was
- * hit. light_choices of 256 asks all of up to 512 lights.
+ * Direct light, light at the end of paths, splats, and gloss, which weighs a light that was drawn
+ * against one that was hit. light_choices of 256 asks all of up to 512 lights.
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"
@@ -15,7 +16,8 @@
 
 #define SEEDS 4
 
-/* A room of 8 x 3 x 8 with a block, and a grid of lights below its ceiling; its floor is of the material named. */
+/* A room of 8 x 3 x 8 with a block, and a grid of lights below its ceiling; its floor is of the
+ * material named. */
 static const char scene[] =
     "psd: 1\n"
     "camera: {location: [-3.5, 1.5, 3.5], look_at: [0.5, 0.6, -0.5], angle: 75}\n"

@@ -1,9 +1,9 @@
-/* test_material_agreement.c: the estimators against one another in rooms with mirrors, gloss, glass and
- * metal.
+/* test_material_agreement.c: the estimators against one another in rooms with mirrors, gloss, glass
+ * and metal.
  *
- * A closed room under a lamp; path tracing is the truth. Splats and photon maps may be off by their own
- * bias, in the mean of the indirect layer and of the whole picture. Light goes by all ways at once:
- * mirrors seen by the camera and by light paths, caustics, gloss that mirrors lamp and walls.
+ * A closed room under a lamp; path tracing is the truth. Splats and photon maps may be off by their
+ * own bias, in the mean of the indirect layer and of the whole picture. Light goes by all ways at
+ * once: mirrors seen by the camera and by light paths, caustics, gloss that mirrors lamp and walls.
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"

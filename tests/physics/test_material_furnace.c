@@ -1,10 +1,10 @@
 /* test_material_furnace.c: white furnaces: what absorbs nothing can't be seen.
  *
  * Where all that is there reflects or transmits all of its light, radiance L from all around is the
- * radiance everywhere, by any number of bounces (inside of glass of index n it is n^2 L): each pixel
- * shows L. Two furnaces: an object on a white floor under a sky of radiance 1; and an object in a
- * hollow sphere that emits e and has albedo a, where L = e / (1 - a), here 1; there a white ball stands
- * inside of the object, which glass, holes and all may show.
+ * radiance everywhere, by any number of bounces (inside of glass of index n it is n^2 L): each
+ * pixel shows L. Two furnaces: an object on a white floor under a sky of radiance 1; and an object
+ * in a hollow sphere that emits e and has albedo a, where L = e / (1 - a), here 1; there a white
+ * ball stands inside of the object, which glass, holes and all may show.
  *
  * Direct and indirect light together make 1, so the bias that is allowed is a share of the whole.
  */

@@ -1,6 +1,7 @@
-/* test_merged_weight.c: in the weight a merged photon counts as often as those that it stands for (Hoet
- * 2014, section 3.2.1). Two beams as thin as a ray meet a mirror and are spots on a wall that overlap.
- * The photons of a beam coincide, so merging them must change nothing, whatever the normalization.
+/* test_merged_weight.c: in the weight a merged photon counts as often as those that it stands for
+ * (Hoet 2014, section 3.2.1). Two beams as thin as a ray meet a mirror and are spots on a wall that
+ * overlap. The photons of a beam coincide, so merging them must change nothing, whatever the
+ * normalization.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -9,7 +10,8 @@
 
 #include <cmocka.h>
 
-/* Mirrored by the floor at 45 degrees, both go up to the wall; the red one has nine times the paths. */
+/* Mirrored by the floor at 45 degrees, both go up to the wall; the red one has nine times the
+ * paths. */
 static const char two_beams[] =
     "psd: 1\n"
     "camera: {location: [0.1, 1.2, 2], look_at: [0.1, 1.2, -1], angle: 30}\n"

@@ -1,9 +1,10 @@
-/* test_mesh_materials.c: pictures of meshes whose files say in glTF's words what their surface is like.
+/* test_mesh_materials.c: pictures of meshes whose files say in glTF's words what their surface is
+ * like.
  *
- * A square of two triangles fills the picture of a parallel camera. Its texture has four texels, of which each quarter
- * of the square shows one; where it lies, and what is multiplied with it, is read off the albedo. A black square in
- * between that is there by a share lets the rest of the light through, whoever asks: camera, shadow rays, shadow maps,
- * light paths.
+ * A square of two triangles fills the picture of a parallel camera. Its texture has four texels, of
+ * which each quarter of the square shows one; where it lies, and what is multiplied with it, is
+ * read off the albedo. A black square in between that is there by a share lets the rest of the
+ * light through, whoever asks: camera, shadow rays, shadow maps, light paths.
  */
 #include "image/image.h"
 #include "support/render_scene.h"
@@ -93,7 +94,8 @@ static const char *scene_with(void **state, const char *around, const char *mate
     return scene;
 }
 
-/* What four rays meet, in the middles of the quarters: upper left, upper right, lower left, lower right. */
+/* What four rays meet, in the middles of the quarters: upper left, upper right, lower left, lower
+ * right. */
 static void meet(const char *text, ps_hit hits[4])
 {
     struct scene scene = scene_of_text(text);
@@ -239,11 +241,13 @@ static void test_unlit(void **state)
     rendering_release(&rendering);
 }
 
-/* --- what is there in part ----------------------------------------------------------------------- */
+/* --- what is there in part
+ * ----------------------------------------------------------------------- */
 
 #define BLEND(ALPHA) PBR("\"baseColorFactor\":[0,0,0," ALPHA "]") NO_COAT ",\"alphaMode\":\"BLEND\""
 
-/* A wall behind the square; one across from there, whose light reaches it through the square alone. */
+/* A wall behind the square; one across from there, whose light reaches it through the square
+ * alone. */
 #define QUAD(Z, SIZE, MATERIAL)                                                                    \
     "  - quad: {corners: [[-" SIZE ", -" SIZE ", " Z "], [" SIZE ", -" SIZE ", " Z "], [" SIZE     \
     ", " SIZE ", " Z "], [-" SIZE ", " SIZE ", " Z "]], material: " MATERIAL "}\n"

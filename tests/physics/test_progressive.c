@@ -1,5 +1,6 @@
-/* test_progressive.c: what passes do to photon mapping. With radii that stay, its error falls to a floor, the bias; with those of
- * sppm it goes on falling, at a rate near passes^(-1/3) (Knaus and Zwicker 2011). Against two halves by path tracing.
+/* test_progressive.c: what passes do to photon mapping. With radii that stay, its error falls to a
+ * floor, the bias; with those of sppm it goes on falling, at a rate near passes^(-1/3) (Knaus and
+ * Zwicker 2011). Against two halves by path tracing.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -20,8 +21,8 @@ static const char sphere[] = "psd: 1\n"
                              "objects: [{sphere: {center: [0, 0, 0], radius: 2, material: wall}}]\n"
                              "render: {seed: %d, passes: %d}\n";
 
-/* At its edges radii reach past the surfaces: a bias over a strip as wide as the radius, whose root mean square falls with
- * the root of the radius alone. */
+/* At its edges radii reach past the surfaces: a bias over a strip as wide as the radius, whose root
+ * mean square falls with the root of the radius alone. */
 static const char room[] =
     "psd: 1\n"
     "camera: {location: [0, 1.4, 4.5], look_at: [0, 1.1, 0], angle: 55}\n"
@@ -121,7 +122,8 @@ static void test_many_passes(void **state)
     expect_no_floor(25, 200);
 }
 
-/* A pass is that of its number, whoever rendered those before it: radii are not those of a history. */
+/* A pass is that of its number, whoever rendered those before it: radii are not those of a
+ * history. */
 static void test_first_pass_is_photon_mapping(void **state)
 {
     (void)state;

@@ -1,7 +1,8 @@
 /* test_radiosity.c: what the elements of radiosity exchange is neither lost nor made.
  *
- * In a closed scene all that a lamp sends out is absorbed in the end, whatever stands in the way of it. In an open one it is
- * absorbed or leaves. A point lamp of intensity I sends out 4 pi I in each channel.
+ * In a closed scene all that a lamp sends out is absorbed in the end, whatever stands in the way of
+ * it. In an open one it is absorbed or leaves. A point lamp of intensity I sends out 4 pi I in each
+ * channel.
  */
 #include "support/render_scene.h"
 #include <math.h>

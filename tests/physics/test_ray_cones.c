@@ -1,5 +1,6 @@
-/* test_ray_cones.c: a hit by a cone has the mean colour of the picture, or of the procedural noise, over the cone's width, whatever
- * the surface: a picture of noise, looked up at many places, varies as little as its means over squares of that width.
+/* test_ray_cones.c: a hit by a cone has the mean colour of the picture, or of the procedural noise,
+ * over the cone's width, whatever the surface: a picture of noise, looked up at many places, varies
+ * as little as its means over squares of that width.
  */
 #include "base/sample.h"
 #include "image/image.h"
@@ -13,8 +14,8 @@
 #define PLACES 400
 #define MEMBERS 64 /* rays of a mean */
 
-/* The picture's texels are about 0.0156 wide on the first one; they all lie around (0, 0, 0) and face +z. The features of `marble` are
- * 0.1 wide, and less. */
+/* The picture's texels are about 0.0156 wide on the first one; they all lie around (0, 0, 0) and
+ * face +z. The features of `marble` are 0.1 wide, and less. */
 static const char scene_text[] =
     "psd: 1\n"
     "camera: {location: [0, 0, 9], look_at: [0, 0, 0], angle: 40}\n"
@@ -107,12 +108,14 @@ static void expect_means(const struct trace *trace, const char *name, float spre
     double ratio = a.deviation / b.deviation;
     print_message("%s: spread %g: %.3f +- %.4f; means over squares: %.3f +- %.4f\n", name,
                   (double)spread, a.mean, a.deviation, b.mean, b.deviation);
-    /* Interpolation between texels of that width takes in more: a tent of noise varies 2/3 as much as a box. */
+    /* Interpolation between texels of that width takes in more: a tent of noise varies 2/3 as much
+     * as a box. */
     if (!(ratio > 0.45 && ratio < 1.3) || !(fabs(a.mean / b.mean - 1.0) < 0.03))
         fail_msg("%s: they differ", name);
 }
 
-/* Calls back with the ray tracer of a scene with that object; `texel`: about how wide its texels are. */
+/* Calls back with the ray tracer of a scene with that object; `texel`: about how wide its texels
+ * are. */
 static void with_object(void **state, const char *object, const char *name, float texel,
                         void (*body)(const struct trace *trace, const char *name, float texel))
 {
@@ -168,7 +171,8 @@ static void test_sphere(void **state)
                 expect_all_spreads);
 }
 
-/* Slanted, a mean over the cone's width across leaves the longer way of its section unfiltered: as sharp or sharper. */
+/* Slanted, a mean over the cone's width across leaves the longer way of its section unfiltered: as
+ * sharp or sharper. */
 static void expect_sharpness(const struct trace *trace, const char *name, float texel)
 {
     float straight[PLACES], slanted[PLACES];

@@ -1,7 +1,8 @@
 /* test_rough_gloss.c: what gloss sends from a lamp to a diffuse surface, in a final gather.
  *
- * Smooth gloss makes caustics, which are splatted; what rough gloss reflects is found by rays, and needs no photons. Where both
- * are in a scene, or light meets both in a row, each light path counts once: bidirectional path tracing is the truth.
+ * Smooth gloss makes caustics, which are splatted; what rough gloss reflects is found by rays, and
+ * needs no photons. Where both are in a scene, or light meets both in a row, each light path counts
+ * once: bidirectional path tracing is the truth.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -14,7 +15,8 @@
 
 #define SEEDS 3
 
-/* The camera sees the floor alone; a tilted plate of metal and a mirror that stands across it are above. */
+/* The camera sees the floor alone; a tilted plate of metal and a mirror that stands across it are
+ * above. */
 static const char scene[] =
     "psd: 1\n"
     "camera: {location: [0, 1.4, 0.01], look_at: [0, 0, 0], angle: 40}\n"

@@ -1,9 +1,9 @@
-/* test_shading_normals.c: smoothed and bent normals, under which light must go the same way for camera
- * paths and light paths (Veach 1997, section 5.3).
+/* test_shading_normals.c: smoothed and bent normals, under which light must go the same way for
+ * camera paths and light paths (Veach 1997, section 5.3).
  *
- * A convex object, or a floor, does not light itself, whatever its normals say; but a floor lights the foot of a wall. A
- * sphere of smooth triangles is a sphere. In a room with a bumpy floor, where no closed form helps, path tracing is the
- * truth for the others.
+ * A convex object, or a floor, does not light itself, whatever its normals say; but a floor lights
+ * the foot of a wall. A sphere of smooth triangles is a sphere. In a room with a bumpy floor, where
+ * no closed form helps, path tracing is the truth for the others.
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"
@@ -28,7 +28,8 @@ struct method {
 static const struct method truth = {
     "pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0};
 
-/* The discs of a photon map follow the bent normal, and miss photons of a bumpy floor: the more, the steeper it is. */
+/* The discs of a photon map follow the bent normal, and miss photons of a bumpy floor: the more,
+ * the steeper it is. */
 enum { ANY_SLOPE = 3 }; /* how many of them know no such limit */
 static const struct method methods[] = {
     {"bdpt", {"estimator=bdpt:samples=32", "bounces=all", NULL}, 0.01},

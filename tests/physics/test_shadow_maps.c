@@ -1,5 +1,5 @@
-/* test_shadow_maps.c: direct light by shadow maps against shadow rays: it converges to them, slopes do
- * not shadow themselves, and area lights stay with rays.
+/* test_shadow_maps.c: direct light by shadow maps against shadow rays: it converges to them, slopes
+ * do not shadow themselves, and area lights stay with rays.
  */
 #include "support/lit_room.h"
 #include "support/render_scene.h"

@@ -1,9 +1,10 @@
 /* test_short_range_gather.c: light from nearer than splats are wide, in closed form.
  *
- * The sun shines along a floor onto a wall of height h and half-length L that stands on it, and lights the floor
- * not at all. A floor point before the middle of the wall, at distance d, sees the wall, whose radiosity is
- * albedo times the sun's irradiance S, under the view factor of a rectangle that stands at right angles on
- * its plane (Howell, "A catalog of radiation heat transfer configuration factors", B-4, twice):
+ * The sun shines along a floor onto a wall of height h and half-length L that stands on it, and
+ * lights the floor not at all. A floor point before the middle of the wall, at distance d, sees the
+ * wall, whose radiosity is albedo times the sun's irradiance S, under the view factor of a
+ * rectangle that stands at right angles on its plane (Howell, "A catalog of radiation heat transfer
+ * configuration factors", B-4, twice):
  *
  *     F(d) = (atan(L / d) - d / c atan(L / c)) / pi,   c = sqrt(d^2 + h^2)
  *
@@ -117,8 +118,8 @@ static const char post[] =
     "  - quad: {corners: [[0, 0, 0.01], [0, 0.02, 0.01], [0, 0.02, -0.01], [0, 0, -0.01]],\n"
     "           material: wall}\n";
 
-/* Their light stays where it is, even if each pixel shares its rays with the 80 around it; these, of which half lie
- * behind the post, would leave it a few percent of it. */
+/* Their light stays where it is, even if each pixel shares its rays with the 80 around it; these,
+ * of which half lie behind the post, would leave it a few percent of it. */
 static void test_small_things(void **state)
 {
     (void)state;

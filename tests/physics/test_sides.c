@@ -1,7 +1,8 @@
 /* test_sides.c: objects of which the camera sees the front alone.
  *
- * A wall between camera and room whose back is hidden (`sides: front`) is as one that is hidden altogether (`camera: no`): the
- * light in the room is the same, sample by sample, as a wall, as an instance, and as one that mirrors. From its front it is seen.
+ * A wall between camera and room whose back is hidden (`sides: front`) is as one that is hidden
+ * altogether (`camera: no`): the light in the room is the same, sample by sample, as a wall, as an
+ * instance, and as one that mirrors. From its front it is seen.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -1,5 +1,6 @@
-/* test_skylight.c: a room that the sky lights through a window, by the final gather, whose rays take the sky's light where they
- * land out of a cache; and one with a sun besides, and with counted bounces.
+/* test_skylight.c: a room that the sky lights through a window, by the final gather, whose rays
+ * take the sky's light where they land out of a cache; and one with a sun besides, and with counted
+ * bounces.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -12,7 +13,8 @@
 #define WIDTH 96
 #define HEIGHT 64
 
-/* A box of 4 x 3 x 6 without its near wall's middle: the window, behind the camera, a fifth of that wall. */
+/* A box of 4 x 3 x 6 without its near wall's middle: the window, behind the camera, a fifth of that
+ * wall. */
 #define ROOM                                                                                       \
     "psd: 1\n"                                                                                     \
     "camera: {location: [0, 1.5, 2.5], look_at: [0, 1.2, -3], angle: 75}\n"                        \

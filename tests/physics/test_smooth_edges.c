@@ -1,8 +1,8 @@
 /* test_smooth_edges.c: one pass with many samples at edges comes close to many passes.
  *
- * A ball on a checkered floor, under a spotlight that casts its shadow, with a mirror behind it and as
- * much indirect light everywhere: there are edges of things, textures, shadows and what a mirror shows.
- * Pixels off the edges are the same as without, bit for bit.
+ * A ball on a checkered floor, under a spotlight that casts its shadow, with a mirror behind it and
+ * as much indirect light everywhere: there are edges of things, textures, shadows and what a mirror
+ * shows. Pixels off the edges are the same as without, bit for bit.
  */
 #include "support/render_scene.h"
 #include <limits.h>
@@ -54,8 +54,8 @@ static struct rendering look(int passes, int aa_samples)
     return look_at(scene, "estimator=ambient:irradiance=2", passes, aa_samples);
 }
 
-/* Relative RMSE of a channel. Albedo is a mean over what samples saw: where they saw nothing there is none, however little of a
- * pixel others see. */
+/* Relative RMSE of a channel. Albedo is a mean over what samples saw: where they saw nothing there
+ * is none, however little of a pixel others see. */
 static double error_of(const struct rendering *test, const struct rendering *reference,
                        const char *name)
 {
@@ -99,7 +99,8 @@ static void test_one_pass_comes_close_to_many(void **state)
     rendering_release(&smooth);
 }
 
-/* Bright bars before black, thinner than a pixel; the second camera has a lens that looks past them. */
+/* Bright bars before black, thinner than a pixel; the second camera has a lens that looks past
+ * them. */
 #define BARS                                                                                       \
     "objects:\n"                                                                                   \
     "  - quad: {corners: [[-0.31, -2, 0], [-0.31, 2, 0], [-0.30, 2, 0], [-0.30, -2, 0]],\n"        \
@@ -133,8 +134,8 @@ static double mean_light(const char *camera, const char *objects, int passes, in
     return mean;
 }
 
-/* Neither what is rarely hit nor what is rarely chosen goes missing, as it would if looks that differ from
- * their neighbours were replaced pass by pass. */
+/* Neither what is rarely hit nor what is rarely chosen goes missing, as it would if looks that
+ * differ from their neighbours were replaced pass by pass. */
 static void test_the_mean_stays(void **state)
 {
     (void)state;
@@ -166,7 +167,8 @@ static void test_passes_add_to_it(void **state)
     rendering_release(&sixteen);
 }
 
-/* A beam on posts before a lamp: its underside shows as four rows of pixels, brightest where it meets the posts. */
+/* A beam on posts before a lamp: its underside shows as four rows of pixels, brightest where it
+ * meets the posts. */
 static const char beam[] =
     "psd: 1\n"
     "camera: {location: [0, 1.2, 8.5], look_at: [-0.5, 2.7, -2], angle: 10}\n"
@@ -180,8 +182,8 @@ static const char beam[] =
     "  - box: {corners: [[0.25, 0, -2.3], [0.75, 2.8, -1.9]], material: stone}\n"
     "  - box: {corners: [[-3.6, 2.8, -2.4], [3.6, 3.2, -1.6]], material: stone}\n";
 
-/* Samples at edges have the light of pixels that are near to what they see, and see the same surface: the underside has no light of
- * the front's. */
+/* Samples at edges have the light of pixels that are near to what they see, and see the same
+ * surface: the underside has no light of the front's. */
 static void test_light_at_edges_is_that_nearby(void **state)
 {
     (void)state;
@@ -212,7 +214,8 @@ static void test_noise_off_the_edges_stays(void **state)
     rendering_release(&edges);
 }
 
-/* Through a pane the foot of a bright wall is seen, and the floor before the pane, mirrored: what of it a sample has, chance decides. */
+/* Through a pane the foot of a bright wall is seen, and the floor before the pane, mirrored: what
+ * of it a sample has, chance decides. */
 static const char pane[] =
     "psd: 1\n"
     "camera: {location: [0, 1.2, -2], look_at: [0, 0.45, 0], angle: 12}\n"
@@ -269,7 +272,8 @@ static ps_result look_until(struct patience *patience, struct rendering *renderi
     return result;
 }
 
-/* The last that asks are tiles at the edges. What was found before makes a picture without smooth edges. */
+/* The last that asks are tiles at the edges. What was found before makes a picture without smooth
+ * edges. */
 static void test_cancelled_at_the_edges(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 /* test_surface_layers.c: albedo, normal, position and depth of pixels that see mirrors and glass.
  *
- * A mirror in which only the sky shows tells its own; where another surface shows in it, that one's are told. Such a mirror
- * changes no light beside it.
+ * A mirror in which only the sky shows tells its own; where another surface shows in it, that one's
+ * are told. Such a mirror changes no light beside it.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -10,7 +10,8 @@
 
 #include <cmocka.h>
 
-/* The camera looks straight down, by 4: the left half of the picture is a mirror, the right half is a floor. */
+/* The camera looks straight down, by 4: the left half of the picture is a mirror, the right half is
+ * a floor. */
 #define FROM_ABOVE(MATERIALS, OBJECTS)                                                             \
     "psd: 1\n"                                                                                     \
     "camera: {location: [0, 4, 0], look_at: [0, 0, 0], up: [0, 0, -1], angle: 53.13}\n"            \

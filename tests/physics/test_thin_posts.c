@@ -1,8 +1,9 @@
 /* test_thin_posts.c: a post before nothing gets as much light as a wall in its place.
  *
- * The sun shines on a floor, whose light meets a post a tenth as wide as splats are, seen from before. The axes of
- * most bundles that light it pass by and meet nothing, and so do the few rays that look for what stands beside
- * them (src/splat/extent.h). A mullion before the sky is such a post.
+ * The sun shines on a floor, whose light meets a post a tenth as wide as splats are, seen from
+ * before. The axes of most bundles that light it pass by and meet nothing, and so do the few rays
+ * that look for what stands beside them (src/splat/extent.h). A mullion before the sky is such a
+ * post.
  */
 #include "support/render_scene.h"
 #include <math.h>

@@ -1,5 +1,5 @@
-/* test_virtual_lights.c: what maps over hemispheres hide of virtual lights is what shadow rays hide of them, and lightcuts
- * find the light of all lights by few.
+/* test_virtual_lights.c: what maps over hemispheres hide of virtual lights is what shadow rays hide
+ * of them, and lightcuts find the light of all lights by few.
  *
  * Means, compensation included, are compared with path tracing in test_agreement.
  */
@@ -103,7 +103,8 @@ static const char over_floor[] =
     "  - quad: {corners: [[-8, 0, -8], [-8, 0, 8], [8, 0, 8], [8, 0, -8]], material: floor}\n"
     "  - %s\n";
 
-/* However coarse the map is: the points of a cell that the object lies in are those of several of its sides. */
+/* However coarse the map is: the points of a cell that the object lies in are those of several of
+ * its sides. */
 static void expect_no_shadow_of_itself(const char *object)
 {
     char text[1024];
@@ -172,8 +173,8 @@ static void test_cuts_grow_slower_than_lights(void **state)
     free(text);
 }
 
-/* The sun shines on a strip of floor, which lights a small ceiling over its end: near lights give ten times what far ones
- * do. */
+/* The sun shines on a strip of floor, which lights a small ceiling over its end: near lights give
+ * ten times what far ones do. */
 static const char strip[] =
     "psd: 1\n"
     "camera: {location: [9.5, 3, 0], look_at: [9.5, 6, 0], up: [1, 0, 0], projection: "

@@ -1,6 +1,7 @@
-/* test_window.c: a room that the sky lights through its window alone. Its floor's light is that of the window seen as a
- * polygon (Lambert 1760), with little noise, since rays go through the window (direct/portals.h); and on matt surfaces as
- * on gloss, which weighs the sky that was asked against the sky that was hit, it has the mean that it has without.
+/* test_window.c: a room that the sky lights through its window alone. Its floor's light is that of
+ * the window seen as a polygon (Lambert 1760), with little noise, since rays go through the window
+ * (direct/portals.h); and on matt surfaces as on gloss, which weighs the sky that was asked against
+ * the sky that was hit, it has the mean that it has without.
  */
 #include "support/reflected_light.h"
 #include "support/render_scene.h"
@@ -41,8 +42,8 @@ static const char room_text[] =
 
 /* --- the closed form --- */
 
-/* Irradiance of a point of the floor, of a sky of radiance 1: half the sum of the angles of the window's edges times the
- * cosines of their planes' normals. */
+/* Irradiance of a point of the floor, of a sky of radiance 1: half the sum of the angles of the
+ * window's edges times the cosines of their planes' normals. */
 static double irradiance_of_floor(double x, double z)
 {
     static const double corners[4][2] = {{-1, 1}, {1, 1}, {1, 2.2}, {-1, 2.2}};
@@ -59,8 +60,8 @@ static double irradiance_of_floor(double x, double z)
     return 0.5 * fabs(sum);
 }
 
-/* Of the floor's pixels: the mean of their light over that of the closed form, and the variance of a pixel, over the
- * square of its light. */
+/* Of the floor's pixels: the mean of their light over that of the closed form, and the variance of
+ * a pixel, over the square of its light. */
 struct floor_light {
     double ratio, variance, cosine_variance;
 };

@@ -1,5 +1,5 @@
-/* abusive.c: strategies that do what they must not. ABUSE says what; the estimator otherwise adds one unit of
- * irradiance, the injection makes no photons. */
+/* abusive.c: strategies that do what they must not. ABUSE says what; the estimator otherwise adds
+ * one unit of irradiance, the injection makes no photons. */
 #include <psplat/plugin.h>
 #include <string.h>
 

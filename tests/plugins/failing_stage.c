@@ -1,6 +1,6 @@
-/* failing_stage.c: a denoiser, a normalization, an estimator, a bloom and a tone map that fail, or wait to be cancelled,
- * after they have written into their planes. RESULT is what they return; the estimator does so in its third pass. A DEAF
- * one waits for ever.
+/* failing_stage.c: a denoiser, a normalization, an estimator, a bloom and a tone map that fail, or
+ * wait to be cancelled, after they have written into their planes. RESULT is what they return; the
+ * estimator does so in its third pass. A DEAF one waits for ever.
  */
 #include <psplat/plugin.h>
 

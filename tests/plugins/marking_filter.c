@@ -1,4 +1,5 @@
-/* marking_filter.c: a filter whose constructor makes a file, so that a test sees whether it was loaded. */
+/* marking_filter.c: a filter whose constructor makes a file, so that a test sees whether it was
+ * loaded. */
 #include <psplat/plugin.h>
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* witness.c: an estimator and a denoiser that say what they are given: hooks, radiance, half buffers and ids. */
+/* witness.c: an estimator and a denoiser that say what they are given: hooks, radiance, half
+ * buffers and ids. */
 #include <psplat/plugin.h>
 
 /* Lasts through the render. */
@@ -68,7 +69,8 @@ static float share_of(const ps_image_view *image)
 #endif
 }
 
-/* The passes' radiance, all of them together, the even and the odd ones. A pixel at an edge sees a surface in some. */
+/* The passes' radiance, all of them together, the even and the odd ones. A pixel at an edge sees a
+ * surface in some. */
 static int is_whole(const ps_image_view *image, size_t i)
 {
     uint32_t odd = image->passes / 2, even = image->passes - odd;

@@ -1,4 +1,5 @@
-/* counted_forks.c: a library to preload, which writes a line to the file FORKS for each child process. */
+/* counted_forks.c: a library to preload, which writes a line to the file FORKS for each child
+ * process. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>

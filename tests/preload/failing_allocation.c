@@ -1,7 +1,7 @@
 /* failing_allocation.c: a library to preload, under which one allocation of psplat fails.
  *
- * It counts the allocations that the program, its plugins and libyaml ask for. Other libraries are not looked at: how
- * they meet the end of memory is not psplat's to mend.
+ * It counts the allocations that the program, its plugins and libyaml ask for. Other libraries are
+ * not looked at: how they meet the end of memory is not psplat's to mend.
  *
  *     FAIL_AT=N      the Nth fails; without it, or with 0, none
  *     FAIL_ON=1      those after it, too
@@ -29,7 +29,8 @@ static struct {
 /* ISO C has no cast from an object's pointer to a function's. */
 #define FIND(name) (*(void **)&next.name = dlsym(RTLD_NEXT, #name))
 
-/* With the first allocation, when there is one thread. dlsym() may allocate as well, and copes where it can't. */
+/* With the first allocation, when there is one thread. dlsym() may allocate as well, and copes
+ * where it can't. */
 static bool find_next(void)
 {
     static atomic_bool begun;

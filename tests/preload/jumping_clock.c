@@ -1,5 +1,5 @@
-/* jumping_clock.c: a library to preload, under which the time of day jumps by hours back and forth each time it is asked
- * for. Clocks that only go on are left alone.
+/* jumping_clock.c: a library to preload, under which the time of day jumps by hours back and forth
+ * each time it is asked for. Clocks that only go on are left alone.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>

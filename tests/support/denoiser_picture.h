@@ -1,4 +1,5 @@
-/* denoiser_picture.h: pictures with a G-buffer, made by hand, and a denoiser that is let loose on one. */
+/* denoiser_picture.h: pictures with a G-buffer, made by hand, and a denoiser that is let loose on
+ * one. */
 #ifndef TESTS_SUPPORT_DENOISER_PICTURE_H
 #define TESTS_SUPPORT_DENOISER_PICTURE_H
 
@@ -30,7 +31,8 @@ struct picture *bent_floor(float degrees, float step);
 /* A wavy surface of many colours under noise, with pixels that see nothing. */
 struct picture *wild_picture(uint64_t seed);
 
-/* Runs a denoiser such as "denoiser=bilateral:size=9", which must succeed, and leave no memory behind. */
+/* Runs a denoiser such as "denoiser=bilateral:size=9", which must succeed, and leave no memory
+ * behind. */
 void denoise(struct picture *picture, const char *choice, uint32_t threads);
 
 /* The same for several pictures of one G-buffer, by filter_all. */

@@ -4,8 +4,8 @@
 
 #include "plugin/strategy.h"
 
-/* Runs a strategy such as "tonemap=filmic:shoulder=0.5", which must give `expected` and leave no memory behind. Where
- * that is PS_CANCELLED, the host was cancelled before. */
+/* Runs a strategy such as "tonemap=filmic:shoulder=0.5", which must give `expected` and leave no
+ * memory behind. Where that is PS_CANCELLED, the host was cancelled before. */
 void run_display(const char *choice, uint32_t threads, const ps_display_view *picture,
                  ps_result expected);
 

@@ -12,16 +12,16 @@ struct injected {
     struct statistics *statistics;
 };
 
-/* The photons of one pass; `choice` is such as "photon:count=1000", for one bounce, or "photon bounces=all". A failure fails the test. Release
- * it with injected_release. */
+/* The photons of one pass; `choice` is such as "photon:count=1000", for one bounce, or "photon
+ * bounces=all". A failure fails the test. Release it with injected_release. */
 struct injected inject_text(const char *text, const char *choice, uint32_t pass, uint32_t threads);
 void injected_release(struct injected *injected);
 
 /* Calls body with a host that has the scene of the text, and no strategies. */
 void with_host_of(const char *text, void (*body)(const ps_host *host));
 
-/* The message with which the strategy refuses to start on this scene; fails the test if it does not.
- * The caller frees it. */
+/* The message with which the strategy refuses to start on this scene; fails the test if it does
+ * not. The caller frees it. */
 char *injection_refusal(const char *text, const char *choice);
 
 /* Sum of the photons' power, all bounces and lobes: red, green, blue. */

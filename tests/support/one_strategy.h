@@ -1,5 +1,5 @@
-/* one_strategy.h: a strategy alone, without a render: for tests that call its functions on input made
- * by hand. */
+/* one_strategy.h: a strategy alone, without a render: for tests that call its functions on input
+ * made by hand. */
 #ifndef TESTS_SUPPORT_ONE_STRATEGY_H
 #define TESTS_SUPPORT_ONE_STRATEGY_H
 
@@ -10,8 +10,9 @@
 #define BARE_HOST_RADIUS 100.0f
 #define BARE_HOST_PIXEL 0.1f
 
-/* A host that has memory, loops on `threads` threads, the bounds of a scene with its centre in the origin and
- * radius BARE_HOST_RADIUS, an orthographic camera with pixels of side BARE_HOST_PIXEL, says whether it is cancelled, and keeps failures; nothing else. */
+/* A host that has memory, loops on `threads` threads, the bounds of a scene with its centre in the
+ * origin and radius BARE_HOST_RADIUS, an orthographic camera with pixels of side BARE_HOST_PIXEL,
+ * says whether it is cancelled, and keeps failures; nothing else. */
 struct bare_host {
     ps_host host;
     struct workers *workers;

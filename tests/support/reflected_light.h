@@ -5,8 +5,8 @@
 #include "direct/direct.h"
 #include "support/statistics_of.h"
 
-/* Mean green radiance at the lower middle of a picture of 16x16 pixels, by lights that surfaces ask and by rays that they
- * scatter, over a few seeds. */
+/* Mean green radiance at the lower middle of a picture of 16x16 pixels, by lights that surfaces ask
+ * and by rays that they scatter, over a few seeds. */
 struct estimate reflected_light(const struct lighting *lighting);
 
 #endif

@@ -1,8 +1,9 @@
 /* run_tests.h: runs a program's tests, without those that take seconds where time is short.
  *
- * A test that is listed by SLOW_TEST is left out under $PSPLAT_QUICK. CMake finds the word in the source,
- * and adds the program twice: whole, with the label `slow`, and quick, with the label `quick`. Under
- * $PSPLAT_SLOW the others are left out: for a whole run after a quick one. Include it after cmocka.h.
+ * A test that is listed by SLOW_TEST is left out under $PSPLAT_QUICK. CMake finds the word in the
+ * source, and adds the program twice: whole, with the label `slow`, and quick, with the label
+ * `quick`. Under $PSPLAT_SLOW the others are left out: for a whole run after a quick one. Include
+ * it after cmocka.h.
  */
 #ifndef TESTS_SUPPORT_RUN_TESTS_H
 #define TESTS_SUPPORT_RUN_TESTS_H

@@ -29,8 +29,8 @@ ps_photon stratify_photon(ps_vec3 position, float power, uint64_t path);
  * refuses its parameters fails the test. Everything it allocated must be released. */
 size_t stratify_photons(struct stage *stage, const char *choice, ps_photon *photons, size_t n);
 
-/* The numbers of the cells that the photons themselves lie in, by that choice; false where it has no
- * cells. */
+/* The numbers of the cells that the photons themselves lie in, by that choice; false where it has
+ * no cells. */
 bool stratify_cells(struct stage *stage, const char *choice, const ps_photon *photons, size_t n,
                     uint64_t *numbers);
 

@@ -1,5 +1,5 @@
-/* test_ambient_occlusion.c: the estimators `ssao` and `hbao` against their formulas in a crease, against plain ambient light
- * where nothing occludes, and `hbao` against ray-cast occlusion. */
+/* test_ambient_occlusion.c: the estimators `ssao` and `hbao` against their formulas in a crease,
+ * against plain ambient light where nothing occludes, and `hbao` against ray-cast occlusion. */
 #include "support/render_scene.h"
 
 #include <math.h>
@@ -14,8 +14,8 @@
 #define SIZE 64
 #define CREASE_WIDTH 2.0 /* of what the picture shows of the crease, in scene units */
 
-/* A floor and a wall that meet in the x axis, seen from far off at 45 degrees to both; all lengths times
- * `scale`. Albedo and irradiance are such that the picture shows visibility / pi. */
+/* A floor and a wall that meet in the x axis, seen from far off at 45 degrees to both; all lengths
+ * times `scale`. Albedo and irradiance are such that the picture shows visibility / pi. */
 static void crease_text(char *text, size_t size, double scale, int passes)
 {
     double far = 300 * scale, wide = 9 * scale;
@@ -108,8 +108,8 @@ static void test_intensity_zero_is_ambient(void **state)
 
 /* --- the crease --- */
 
-/* Of a point on the floor whose pixel is b0 below the crease on the picture plane: the mean over the
- * disc of what wall it shows, by midpoints. */
+/* Of a point on the floor whose pixel is b0 below the crease on the picture plane: the mean over
+ * the disc of what wall it shows, by midpoints. */
 static double expected_of_ssao(double b0, double radius, double intensity)
 {
     enum { GRID = 800 };
@@ -151,8 +151,9 @@ static void test_crease_of_ssao(void **state)
     }
 }
 
-/* Of a point on the floor at a distance from the wall: what is left of the hemisphere, where the wall occludes a direction
- * whose part to the wall is c by 1 - (distance / (c radius))^2. By midpoints; of all light alike in a closed form. */
+/* Of a point on the floor at a distance from the wall: what is left of the hemisphere, where the
+ * wall occludes a direction whose part to the wall is c by 1 - (distance / (c radius))^2. By
+ * midpoints; of all light alike in a closed form. */
 static double expected_of_hbao(double distance, double radius, bool cosine)
 {
     enum { STEPS = 4000 };
@@ -192,8 +193,9 @@ static void test_crease_of_hbao(void **state)
     }
 }
 
-/* Blocks on a floor under an even sky, seen from straight above: all that occludes is in the picture. The sky is direct
- * light, found by rays; its irradiance where nothing occludes is pi times its radiance. */
+/* Blocks on a floor under an even sky, seen from straight above: all that occludes is in the
+ * picture. The sky is direct light, found by rays; its irradiance where nothing occludes is pi
+ * times its radiance. */
 static const char blocks[] =
     "psd: 1\n"
     "camera: {location: [0, 9, 0], look_at: [0, 0, 0], up: [0, 0, -1], projection: orthographic, "

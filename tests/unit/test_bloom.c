@@ -1,4 +1,5 @@
-/* test_bloom.c: bloom=glare keeps a constant and the sum of light, and makes of a point the point-spread function. */
+/* test_bloom.c: bloom=glare keeps a constant and the sum of light, and makes of a point the
+ * point-spread function. */
 #include "support/display_picture.h"
 
 #include <setjmp.h>
@@ -87,8 +88,8 @@ static double gaussians(double radius, double x, double y)
     return sum;
 }
 
-/* Along the row, the column and the diagonal of the point: round, and as near to the Gaussians as three boxes
- * are: within a tenth of the peak at the peak, and within 3 % of it elsewhere. */
+/* Along the row, the column and the diagonal of the point: round, and as near to the Gaussians as
+ * three boxes are: within a tenth of the peak at the peak, and within 3 % of it elsewhere. */
 static void test_a_point_becomes_the_psf(void **state)
 {
     (void)state;

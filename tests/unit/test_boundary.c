@@ -1,5 +1,5 @@
-/* test_boundary.c: walls that short rays find beside a photon. The ray tracer is one of planes, written
- * here. */
+/* test_boundary.c: walls that short rays find beside a photon. The ray tracer is one of planes,
+ * written here. */
 #include "placement/boundary.h"
 
 #include <psplat/math.h>
@@ -46,7 +46,8 @@ static void trace(const ps_host *host, ps_ray_packet *packets, size_t n, int coh
         }
 }
 
-/* Light from the origin of a floor (y = 0), as much to the side as up, in bundles of half-width 2. */
+/* Light from the origin of a floor (y = 0), as much to the side as up, in bundles of half-width
+ * 2. */
 static struct splat bundle_in(struct room *room)
 {
     static const float half = 0.70710678f;
@@ -91,8 +92,8 @@ static void test_wall_past_the_rim(void **state)
     expect_near(splat.bundle.boundaries[0].distance, 1.75);
 }
 
-/* A well whose walls lean outwards, as a hollow surface does: the bundle starts an eighth of its half-width
- * above the ground, on flat ground a thirty-second. */
+/* A well whose walls lean outwards, as a hollow surface does: the bundle starts an eighth of its
+ * half-width above the ground, on flat ground a thirty-second. */
 static void test_hollows_raise_the_start(void **state)
 {
     (void)state;

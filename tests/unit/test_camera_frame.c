@@ -4,7 +4,8 @@
 #include "parser_fixture.h"
 #include "scene/scene_box.h"
 
-/* Of the picture's half width and half height, how far the corners of the box reach from its middle. */
+/* Of the picture's half width and half height, how far the corners of the box reach from its
+ * middle. */
 struct reach {
     double left, right, up, down;
 };
@@ -67,7 +68,8 @@ static bool is_wide(const struct camera_description *camera, const size_t size[2
     return half > 1 || half * (camera->vertical_angle > 0 ? aspect : 1 / aspect) > 1;
 }
 
-/* The box is in the picture, and fills its width or its height up to the margin, alike on both sides. */
+/* The box is in the picture, and fills its width or its height up to the margin, alike on both
+ * sides. */
 static void expect_framed(const struct camera_description *camera, const struct box *box,
                           const size_t size[2])
 {
@@ -162,7 +164,8 @@ static void test_no_direction_of_view(void **state)
     assert_int_equal(camera_frame(&camera, &nothing, 4, 4, &error), PS_OK);
 }
 
-/* --- what is worth a look ------------------------------------------------------------------------- */
+/* --- what is worth a look
+ * ------------------------------------------------------------------------- */
 
 static void expect_box_of(const char *objects, const char *expected)
 {

@@ -24,7 +24,8 @@ static size_t lay_out(ps_vec3 landings[CAUSTIC_LANDINGS], int denser)
     return count;
 }
 
-/* 200 photons share the disc, if there are ten for each landing, but for what a grid differs from chance. */
+/* 200 photons share the disc, if there are ten for each landing, but for what a grid differs from
+ * chance. */
 static void test_radius_goes_by_density(void **state)
 {
     (void)state;

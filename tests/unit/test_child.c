@@ -130,7 +130,8 @@ static void memory_is_the_child_s_own(void **state)
     munmap(of_caller, size);
 }
 
-/* --- the transfer ------------------------------------------------------------------------------- */
+/* --- the transfer
+ * ------------------------------------------------------------------------------- */
 
 static struct mesh_outcome *outcome_of_a_mesh(void)
 {

@@ -1,5 +1,6 @@
-/* test_debug_views.c: the views of debug show what they say: counts of splats against a count of our
- * own and against the weights of a box filter, cells of a grid, and points that are hidden or not. */
+/* test_debug_views.c: the views of debug show what they say: counts of splats against a count of
+ * our own and against the weights of a box filter, cells of a grid, and points that are hidden or
+ * not. */
 #include "debug/debug.h"
 #include "debug/id_colour.h"
 #include "debug/legend.h"

@@ -1,4 +1,5 @@
-/* test_discontinuity_buffer.c: which pixels join their direct light: on synthetic G-buffers, wider than a tile. */
+/* test_discontinuity_buffer.c: which pixels join their direct light: on synthetic G-buffers, wider
+ * than a tile. */
 #include "direct/discontinuity_buffer.h"
 #include "support/workers.h"
 
@@ -74,7 +75,8 @@ static float joined(uint32_t x, uint32_t y)
 
 static const ps_vec3 up = {0, 0, 1};
 
-/* --- what rays met ------------------------------------------------------------------------------ */
+/* --- what rays met
+ * ------------------------------------------------------------------------------ */
 
 static void test_lights_are_seen_alike(void **state)
 {
@@ -94,7 +96,8 @@ static void test_lights_are_seen_alike(void **state)
     assert_int_equal(gbuffer_occlusion(35, 1.0f), whole);
 }
 
-/* --- a flat surface ------------------------------------------------------------------------------- */
+/* --- a flat surface
+ * ------------------------------------------------------------------------------- */
 
 #define HALF_LIT (gbuffer_occlusion(0, 1.0f) | gbuffer_occlusion(0, 0.0f))
 
@@ -129,7 +132,8 @@ static void test_what_falls_off_evenly_stays(void **state)
             assert_float_equal(joined(x, y), 3.0f * (float)x + (float)y, 1e-4);
 }
 
-/* --- what nothing crosses ----------------------------------------------------------------------- */
+/* --- what nothing crosses
+ * ----------------------------------------------------------------------- */
 
 static struct view hard_shadow(uint32_t x, uint32_t y)
 {
@@ -167,7 +171,8 @@ static void test_edges_stay_sharp(void **state)
     }
 }
 
-/* --- numbers ------------------------------------------------------------------------------------ */
+/* --- numbers
+ * ------------------------------------------------------------------------------------ */
 
 static uint64_t first_number(uint32_t x, uint32_t y, uint32_t pass)
 {
@@ -178,7 +183,8 @@ static uint64_t first_number(uint32_t x, uint32_t y, uint32_t pass)
     return runs.first[runs.of_lane[lane]];
 }
 
-/* Any 5x5 pixels, also of several tiles, have all numbers of a pass, each once; the next pass goes on. */
+/* Any 5x5 pixels, also of several tiles, have all numbers of a pass, each once; the next pass goes
+ * on. */
 static void test_a_window_shares_a_run(void **state)
 {
     (void)state;

@@ -134,7 +134,8 @@ static void expect_first_above(const struct distribution *distribution, float u)
     assert_true(entry == 0 || !(distribution->cumulative[entry - 1] > u));
 }
 
-/* Wherever the guide begins: of few entries and of many, at the ends of its cells and beside them. */
+/* Wherever the guide begins: of few entries and of many, at the ends of its cells and beside
+ * them. */
 static void test_the_entry_is_the_first_above(void **state)
 {
     (void)state;

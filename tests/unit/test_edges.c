@@ -1,5 +1,5 @@
-/* test_edges.c: which pixels differ from their neighbours. The picture is wider than a tile, and its right
- * half differs from its left one in one thing at a time. */
+/* test_edges.c: which pixels differ from their neighbours. The picture is wider than a tile, and
+ * its right half differs from its left one in one thing at a time. */
 #include "view/edges.h"
 
 #include <setjmp.h>
@@ -161,7 +161,8 @@ static void set_halves(ps_rgb near, ps_rgb far)
         }
 }
 
-/* Light that differs by no more than its shadow rays' noise is no edge; where halves agree, it is. */
+/* Light that differs by no more than its shadow rays' noise is no edge; where halves agree, it
+ * is. */
 static void test_noise_is_none(void **state)
 {
     (void)state;

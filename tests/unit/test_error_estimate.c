@@ -1,4 +1,5 @@
-/* test_error_estimate.c: relative errors by a picture's layer and by the variance of passes, worked out by hand. */
+/* test_error_estimate.c: relative errors by a picture's layer and by the variance of passes, worked
+ * out by hand. */
 #include "job/error_estimate.h"
 
 #include <math.h>

@@ -176,7 +176,8 @@ static void test_asks_for_the_pixels_that_the_kernel_lights(void **state)
     assert_int_equal(count.lit, count.tests);
 }
 
-/* Or else the agreement would say nothing of walls: before one splats weigh more, behind it nothing. */
+/* Or else the agreement would say nothing of walls: before one splats weigh more, behind it
+ * nothing. */
 static void test_walls_move_weight_before_them(void **state)
 {
     (void)state;

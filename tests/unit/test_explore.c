@@ -1,5 +1,5 @@
-/* test_explore.c: what `psplat explore` is made of, without its server: options, pictures, files that change, and the
- * life of views. tests/cli/test_explore.sh asks the server. */
+/* test_explore.c: what `psplat explore` is made of, without its server: options, pictures, files
+ * that change, and the life of views. tests/cli/test_explore.sh asks the server. */
 #include "explore/explorer.h"
 
 #include "explore/comparison.h"
@@ -37,7 +37,8 @@ static void pause_a_moment(void)
     nanosleep(&moment, NULL);
 }
 
-/* --- options ----------------------------------------------------------------------------------------- */
+/* --- options
+ * ----------------------------------------------------------------------------------------- */
 
 static ps_result read_options(const char *text, struct option_list *list)
 {
@@ -144,7 +145,8 @@ static void test_page(void **state)
     }
 }
 
-/* --- files ------------------------------------------------------------------------------------------- */
+/* --- files
+ * ------------------------------------------------------------------------------------------- */
 
 static void age(const char *path, long seconds)
 {
@@ -191,7 +193,8 @@ static void test_watched_files(void **state)
     watched_files_release(&files);
 }
 
-/* --- views ------------------------------------------------------------------------------------------- */
+/* --- views
+ * ------------------------------------------------------------------------------------------- */
 
 static void start(struct explorer *explorer, const char *path, const char *size)
 {

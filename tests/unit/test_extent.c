@@ -1,5 +1,5 @@
-/* test_extent.c: how large the footprints of full bundles must be. The ray tracer is one of a single upright board,
- * written here. */
+/* test_extent.c: how large the footprints of full bundles must be. The ray tracer is one of a
+ * single upright board, written here. */
 #include "placement/footprint.h"
 #include "placement/radius.h"
 
@@ -75,8 +75,8 @@ static void test_a_board_too_far_from_the_axis(void **state)
     assert_true(board.packets == 1);
 }
 
-/* The axis meets something at 3; rays to its side meet a board 14 away, whose pixels take in a disc of
- * half-width 2.8 and thus the axis, or one of 0.7, and thus only rays near the axis. */
+/* The axis meets something at 3; rays to its side meet a board 14 away, whose pixels take in a disc
+ * of half-width 2.8 and thus the axis, or one of 0.7, and thus only rays near the axis. */
 static void test_something_near_before_something_far(void **state)
 {
     (void)state;

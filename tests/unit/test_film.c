@@ -330,7 +330,8 @@ static void test_half_of_a_pass(void **state)
     expect_in(bench.film.half, FILM_REFLECTED_G, 12, 2, 0.25 / PI * 2);
 }
 
-/* What comes from lights that cast hard shadows is kept apart from the rest, and in halves likewise. */
+/* What comes from lights that cast hard shadows is kept apart from the rest, and in halves
+ * likewise. */
 static void test_hard_light_apart(void **state)
 {
     (void)state;
@@ -364,7 +365,8 @@ static void meet_gloss(uint32_t lane)
     bench.gbuffer.emitted[lane] = (ps_rgb){3, 3, 3};
 }
 
-/* The first glossy surface stands for what lies behind, and for nothing behind; light is what it is. */
+/* The first glossy surface stands for what lies behind, and for nothing behind; light is what it
+ * is. */
 static void test_first_glossy_surface(void **state)
 {
     (void)state;
@@ -480,7 +482,8 @@ static void test_albedo_is_no_more_than_1(void **state)
     expect(FILM_DIRECT_R, 0, 0, 1.25 / PI * 5);
 }
 
-/* Of a pixel's samples the second half is in `half` if all met gloss; else half of the shadow rays. */
+/* Of a pixel's samples the second half is in `half` if all met gloss; else half of the shadow
+ * rays. */
 static void test_halves_of_glossy_samples(void **state)
 {
     (void)state;
@@ -518,7 +521,8 @@ static void test_clear_indirect(void **state)
 
 #define FILM_TEST(function) cmocka_unit_test_setup_teardown(function, open_bench, close_bench)
 
-/* A picture of 20 x 12 tiles, the last ones cut, and a part of it that no border of tiles bounds. */
+/* A picture of 20 x 12 tiles, the last ones cut, and a part of it that no border of tiles
+ * bounds. */
 static const struct rectangle part = {101, 70, 30, 21};
 
 static void test_window_of_a_part(void **state)

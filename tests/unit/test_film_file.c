@@ -1,4 +1,5 @@
-/* test_film_file.c: films come back from their files as they were; what is no film, or not a whole one, is refused. */
+/* test_film_file.c: films come back from their files as they were; what is no film, or not a whole
+ * one, is refused. */
 #include "job/film_file.h"
 
 #include "unit/scratch.h"
@@ -93,7 +94,8 @@ static void test_there_and_back(void **state)
     image_release(&read);
 }
 
-/* Reads a film's file as a picture, lets `spoil` change it, and expects that the message says so. */
+/* Reads a film's file as a picture, lets `spoil` change it, and expects that the message says
+ * so. */
 static void expect_refused(void **state, void (*spoil)(struct image *image), const char *message)
 {
     const char *path = scratch_path(state, "film.exr");

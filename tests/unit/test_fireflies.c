@@ -1,5 +1,5 @@
-/* test_fireflies.c: light that single pixels found by chance, shared out. A tile shows a plane, whose right half may be another
- * surface. */
+/* test_fireflies.c: light that single pixels found by chance, shared out. A tile shows a plane,
+ * whose right half may be another surface. */
 #include "view/fireflies.h"
 
 #include <psplat/tile.h>
@@ -39,7 +39,8 @@ static bool is_right(uint32_t lane)
     return lane % PS_TILE_SIZE >= RIGHT;
 }
 
-/* All have the irradiance 1, 2, 3, and show what they do by chance or not. The right half is `height` above the left one. */
+/* All have the irradiance 1, 2, 3, and show what they do by chance or not. The right half is
+ * `height` above the left one. */
 static void fill(bool stochastic, float height)
 {
     gbuffer_clear_tile(&gbuffer, 0);
@@ -69,7 +70,8 @@ static double sum(const float *plane)
     return total;
 }
 
-/* The firefly keeps so many times what the others had, and these have the rest, with its colours. */
+/* The firefly keeps so many times what the others had, and these have the rest, with its
+ * colours. */
 static void expect_shared_out(bool stochastic, double times)
 {
     double rest = 100.0 - times;
@@ -114,7 +116,8 @@ static void test_other_surfaces(void **state)
     assert_float_equal(tile()->irradiance_r[BRIGHT], 1.0, 0.0);
 }
 
-/* So does what is not bright enough, where chance decides and elsewhere, what few others are like, and the bright half of a surface. */
+/* So does what is not bright enough, where chance decides and elsewhere, what few others are like,
+ * and the bright half of a surface. */
 static void test_left_alone(void **state)
 {
     (void)state;

@@ -75,8 +75,8 @@ static void test_size(void **state)
     expect_near(place((struct footprint_params){.radius.number = 0}, 10, 1).bundle.radius, 2);
 }
 
-/* By the fourth root of few paths, the fifth root of many, the sixth root of the passes; never a large part of
- * the scene. */
+/* By the fourth root of few paths, the fifth root of many, the sixth root of the passes; never a
+ * large part of the scene. */
 static void test_automatic_size(void **state)
 {
     (void)state;
@@ -90,8 +90,8 @@ static void test_automatic_size(void **state)
     expect_near(radius_automatic(RADIUS, 0, 0, 0), 0.25 * RADIUS);
 }
 
-/* Light that lands close together makes smaller splats, in proportion; but not without end, and wide light
- * makes none larger. */
+/* Light that lands close together makes smaller splats, in proportion; but not without end, and
+ * wide light makes none larger. */
 static void test_size_by_the_spread_of_light(void **state)
 {
     (void)state;
@@ -161,7 +161,8 @@ static void test_short_range_light_stays_as_near(void **state)
     expect_near(radius_automatic_gather_distance(RADIUS, 0, 50000), 2.5 * large);
 }
 
-/* As far as splats are wide, and more, where the light was reflected once, and diffusely; splats may be wide then. */
+/* As far as splats are wide, and more, where the light was reflected once, and diffusely; splats
+ * may be wide then. */
 static void test_short_range_light_is_left(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_form_factor.c: form factors of triangles against closed forms, and directions that are even over a triangle. */
+/* test_form_factor.c: form factors of triangles against closed forms, and directions that are even
+ * over a triangle. */
 #include "../plugins/estimator/radiosity/form_factor.h"
 #include "../plugins/estimator/radiosity/spherical_triangle.h"
 
@@ -62,7 +63,8 @@ static void test_small_surface(void **state)
     expect_near("small, times 1e6", 1e6 * small, 1e6 * exact, 1e4 * exact);
 }
 
-/* The integral of a cosine by directions that are even over the solid angle is the form factor, and all of them hit. */
+/* The integral of a cosine by directions that are even over the solid angle is the form factor, and
+ * all of them hit. */
 static void test_directions_over_a_triangle(void **state)
 {
     (void)state;

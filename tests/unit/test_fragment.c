@@ -136,8 +136,8 @@ static void test_own_materials(void **state)
     end(&place);
 }
 
-/* The parts of a mix come along, before it, and its indices follow them; a material of which only the
- * name is known is none. */
+/* The parts of a mix come along, before it, and its indices follow them; a material of which only
+ * the name is known is none. */
 static void test_mixes_and_absent_materials(void **state)
 {
     (void)state;

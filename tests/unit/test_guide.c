@@ -1,4 +1,5 @@
-/* test_guide.c: rays drawn where those before them found light (plugins/estimator/shared/guide.h). */
+/* test_guide.c: rays drawn where those before them found light
+ * (plugins/estimator/shared/guide.h). */
 #include "plugins/estimator/shared/guide.h"
 
 #include "support/random.h"
@@ -50,8 +51,9 @@ static void test_knows_nothing_at_first(void **state)
     }
 }
 
-/* The mean of 1 / ratio over rays of the guide is the integral of the cosine's pdf, and that of light / ratio the light's:
- * from a surface that faces another way than the guide as well, as far as the guide reaches. */
+/* The mean of 1 / ratio over rays of the guide is the integral of the cosine's pdf, and that of
+ * light / ratio the light's: from a surface that faces another way than the guide as well, as far
+ * as the guide reaches. */
 static void test_ratio_is_that_of_the_pdf(void **state)
 {
     (void)state;
@@ -98,7 +100,8 @@ static void test_smooth_ratio_is_a_pdf_s(void **state)
     assert_true(fabs(smooth - 1) < 0.03);
 }
 
-/* What a ray found does not weigh it, nor those of its half; without light in the other half all directions are alike. */
+/* What a ray found does not weigh it, nor those of its half; without light in the other half all
+ * directions are alike. */
 static void test_the_other_half_weighs(void **state)
 {
     (void)state;
@@ -155,7 +158,8 @@ static void test_learns_from_another(void **state)
     }
 }
 
-/* Of a histogram by a guide that faces another way: as much light as the guide's own normal has, and from there. */
+/* Of a histogram by a guide that faces another way: as much light as the guide's own normal has,
+ * and from there. */
 static void test_learns_from_one_that_faces_another_way(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_hemisphere_mesh.c: derivatives of irradiance from rays over a hemisphere are those of Lambert's formula for a
- * rectangle that shines, and for one that stands before a bright plane. */
+/* test_hemisphere_mesh.c: derivatives of irradiance from rays over a hemisphere are those of
+ * Lambert's formula for a rectangle that shines, and for one that stands before a bright plane. */
 #include "../plugins/estimator/irradiance_cache/hemisphere_mesh.h"
 
 #include <math.h>

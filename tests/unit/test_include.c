@@ -263,7 +263,8 @@ static void test_too_many_files(void **state)
     assert_int_equal(read, 1); /* a name that is known needs no reading */
 }
 
-/* --- the file system --------------------------------------------------------------------------- */
+/* --- the file system
+ * --------------------------------------------------------------------------- */
 
 static void write_text(void **state, const char *name, const char *text)
 {

@@ -1,5 +1,5 @@
-/* test_injection_photon.c: light paths that share a walk (`split`): where their photons lie, where they shine, and
- * that all the light is there. */
+/* test_injection_photon.c: light paths that share a walk (`split`): where their photons lie, where
+ * they shine, and that all the light is there. */
 #include "support/inject.h"
 #include "support/lit_room.h"
 #include <math.h>
@@ -23,7 +23,8 @@ static const char floor_text[] = SCENE_HEAD
     "objects:\n"
     "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: half}\n";
 
-/* Every path has its own share of the light, also where their number is no multiple, in each pass. */
+/* Every path has its own share of the light, also where their number is no multiple, in each
+ * pass. */
 static void test_all_paths_leave_their_share(void **state)
 {
     (void)state;
@@ -42,7 +43,8 @@ static void test_all_paths_leave_their_share(void **state)
         }
 }
 
-/* Four in a place of their own, and their directions spread: one in each quarter of the light by slope. */
+/* Four in a place of their own, and their directions spread: one in each quarter of the light by
+ * slope. */
 static void test_paths_of_a_walk_share_its_place(void **state)
 {
     (void)state;

@@ -99,8 +99,8 @@ static const char two_halves[] = SCENE_HEAD
 
 #define SIDE 16
 
-/* Pixels of the map are equal areas of the floor, which get cos^3 theta and reflect 0.8 or 0.2. How often
- * each was chosen shows in the places of the photons. */
+/* Pixels of the map are equal areas of the floor, which get cos^3 theta and reflect 0.8 or 0.2. How
+ * often each was chosen shows in the places of the photons. */
 static void test_choice_goes_by_flux(void **state)
 {
     (void)state;

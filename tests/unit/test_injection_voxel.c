@@ -1,4 +1,5 @@
-/* test_injection_voxel.c: voxels: valid places, true areas, all of the light and nothing of the dark. */
+/* test_injection_voxel.c: voxels: valid places, true areas, all of the light and nothing of the
+ * dark. */
 #include "support/inject.h"
 #include "support/lit_room.h"
 #include <math.h>
@@ -94,8 +95,9 @@ static void test_places_are_on_surfaces(void **state)
     injected_release(&injected);
 }
 
-/* A floor of 10 by 10 cells in a scene of 16 across: one photon for each cell that the floor covers,
- * and none more where rays are many. The ball makes the scene 16 wide, and shadows nothing. */
+/* A floor of 10 by 10 cells in a scene of 16 across: one photon for each cell that the floor
+ * covers, and none more where rays are many. The ball makes the scene 16 wide, and shadows
+ * nothing. */
 static void test_one_photon_a_voxel(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_interleave.c: splats that light interleaved pixels, end to end: as bright as splats that light
- * all of them, and as independent of threads and batches. */
+/* test_interleave.c: splats that light interleaved pixels, end to end: as bright as splats that
+ * light all of them, and as independent of threads and batches. */
 #include "support/render_scene.h"
 
 #include <math.h>
@@ -115,8 +115,8 @@ static void test_other_injections_keep_the_brightness(void **state)
                          indirect(cornell, injections[i], 1), 0.015);
 }
 
-/* It does interleave: a splat lights the sixteenth part of its pixels, and fewer are tested. Of one size
- * all, since those that follow the distance are no smaller than 4 pixels. */
+/* It does interleave: a splat lights the sixteenth part of its pixels, and fewer are tested. Of one
+ * size all, since those that follow the distance are no smaller than 4 pixels. */
 static void test_interleaving_saves_tests(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_interleaved_gbuffer.c: the pixels that splats light: where they lie, what they take over, how they join.
+/* test_interleaved_gbuffer.c: the pixels that splats light: where they lie, what they take over,
+ * how they join.
  *
  * The G-buffer is made by hand: a floor, beside it a wall, a step up, and nothing. */
 #include "splat/interleaved.h"

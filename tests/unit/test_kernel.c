@@ -159,8 +159,8 @@ static size_t texel(double across, uint32_t resolution, bool *borderline)
     return (size_t)fmin(fmax(place, 0), resolution - 1);
 }
 
-/* The half-width of the disc that a pixel takes, in those of the splat; see bandwidth.h. n: its normal;
- * `above`: its distance from the photon's plane. */
+/* The half-width of the disc that a pixel takes, in those of the splat; see bandwidth.h. n: its
+ * normal; `above`: its distance from the photon's plane. */
 static double width_of(const struct splat *splat, const double n[3], double cosine, double above)
 {
     if (!(splat->bandwidth_scale > 0))
@@ -377,8 +377,8 @@ static void test_adds_to_what_is_there(void **state)
     }
 }
 
-/* Splats from straight above a floor whose maps hold `depth`. Its normals are a little longer than 1, as by
- * rounding, and so is their cosine with the light. */
+/* Splats from straight above a floor whose maps hold `depth`. Its normals are a little longer than
+ * 1, as by rounding, and so is their cosine with the light. */
 static struct bench *bench_from_above(float depth)
 {
     struct bench *bench = make_bench(1, 7);

@@ -1,5 +1,5 @@
-/* test_kernel_profile.c: tabulated filters integrate to 1 over their disc, and know which part of it
- * lies before a straight border; bad ones are refused. */
+/* test_kernel_profile.c: tabulated filters integrate to 1 over their disc, and know which part of
+ * it lies before a straight border; bad ones are refused. */
 #include "splat/kernel.h"
 
 #include <math.h>
@@ -68,8 +68,8 @@ static void test_bad_profiles_are_refused(void **state)
     assert_true(kernel_profile_normalize(&profile));
 }
 
-/* Half of every round kernel lies on each side of a border through its middle, and none of it beyond
- * one at its rim. */
+/* Half of every round kernel lies on each side of a border through its middle, and none of it
+ * beyond one at its rim. */
 static void expect_boundary(const struct kernel_profile *profile)
 {
     const float *beyond = profile->beyond;
@@ -118,8 +118,8 @@ static void test_borders_cut_segments_off_a_disc(void **state)
     assert_true(worst < 0.005);
 }
 
-/* The part of the profile that borders at distance d1 and d2 leave, whose normals are `angle` apart: summed
- * over a grid. */
+/* The part of the profile that borders at distance d1 and d2 leave, whose normals are `angle`
+ * apart: summed over a grid. */
 static double part_left(const struct kernel_profile *profile, double d1, double d2, double angle)
 {
     const int side = 800;

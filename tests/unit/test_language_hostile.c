@@ -1,5 +1,5 @@
-/* test_language_hostile.c: short texts that mean to become large, or to take forever. What takes forever
- * ends by the time limit of the test. */
+/* test_language_hostile.c: short texts that mean to become large, or to take forever. What takes
+ * forever ends by the time limit of the test. */
 #include "language_fixture.h"
 #include "support/run_tests.h"
 

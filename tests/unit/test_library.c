@@ -1,5 +1,5 @@
-/* test_library.c: psplat.h, by the shared library: pictures are the command's, errors come as values, nothing is
- * printed, and renders don't know of each other. */
+/* test_library.c: psplat.h, by the shared library: pictures are the command's, errors come as
+ * values, nothing is printed, and renders don't know of each other. */
 #include "image/image.h"
 #include "library_fixture.h"
 #include "scratch.h"
@@ -47,7 +47,8 @@ static void expect_same_picture(const psplat_picture *a, const psplat_picture *b
     }
 }
 
-/* --- pictures ---------------------------------------------------------------------------------------- */
+/* --- pictures
+ * ---------------------------------------------------------------------------------------- */
 
 static void expect_same_files(const char *a, const char *b)
 {
@@ -201,7 +202,8 @@ static void test_a_model(void **state)
     psplat_scene_destroy(scene);
 }
 
-/* --- callbacks --------------------------------------------------------------------------------------- */
+/* --- callbacks
+ * --------------------------------------------------------------------------------------- */
 
 struct watch {
     uint32_t passes, stop_after;
@@ -465,7 +467,8 @@ static void test_callbacks_of_other_versions(void **state)
     psplat_scene_destroy(scene);
 }
 
-/* --- errors ------------------------------------------------------------------------------------------ */
+/* --- errors
+ * ------------------------------------------------------------------------------------------ */
 
 static void expect_error(const psplat_error *error, const char *file, int line, int column,
                          const char *message)
@@ -695,7 +698,8 @@ static void test_nothing_is_printed(void **state)
         fail_msg("%s", warning);
 }
 
-/* --- several renders --------------------------------------------------------------------------------- */
+/* --- several renders
+ * --------------------------------------------------------------------------------- */
 
 #define THREADS 4
 
@@ -712,7 +716,8 @@ static void *work(void *user)
     return NULL;
 }
 
-/* Two scenes, each in two threads, all at once, give the pictures that they give one after another. */
+/* Two scenes, each in two threads, all at once, give the pictures that they give one after
+ * another. */
 static void test_at_once(void **state)
 {
     (void)state;
@@ -787,7 +792,8 @@ static void test_loading_at_once(void **state)
         psplat_picture_destroy(loadings[i].picture);
 }
 
-/* Nor does a picture depend on how the program rounds, or on whether it flushes denormal numbers; which stays so. */
+/* Nor does a picture depend on how the program rounds, or on whether it flushes denormal numbers;
+ * which stays so. */
 static void test_rounding(void **state)
 {
     fenv_t usual;

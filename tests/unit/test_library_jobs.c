@@ -1,5 +1,6 @@
-/* test_library_jobs.c: psplat_render as a long job: files, films, budgets, and pictures on the way, as the command has
- * them. tests/cli/ tries the same by the command, which is a client of the library. */
+/* test_library_jobs.c: psplat_render as a long job: files, films, budgets, and pictures on the way,
+ * as the command has them. tests/cli/ tries the same by the command, which is a client of the
+ * library. */
 #include "library_fixture.h"
 
 #include <stdbool.h>
@@ -121,7 +122,7 @@ static void test_wrong(void **state)
     psplat_error error;
     psplat_scene *scene = psplat_scene_create();
     set(scene, "resume", NULL);
-    expect_wrong(scene, "--resume: which film? Name it with --checkpoint.");
+    expect_wrong(scene, "--resume needs --checkpoint FILE.exr, which names the film");
     set(scene, "checkpoint", "/no/such/folder/a.exr");
     expect_wrong(scene, "can't write '/no/such/folder/a.exr'");
     set(scene, "tile", "64");
@@ -195,7 +196,8 @@ static void test_budgets(void **state)
     psplat_scene_destroy(scene);
 }
 
-/* Pictures for a viewer are as large as the last one, and come before the first pass where the picture is large. */
+/* Pictures for a viewer are as large as the last one, and come before the first pass where the
+ * picture is large. */
 static void test_shown(void **state)
 {
     (void)state;

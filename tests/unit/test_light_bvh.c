@@ -131,7 +131,8 @@ static void expect_mean_at(const struct light *lights, const struct light_bvh *b
     assert_true(drawn.standard_error * sqrt(TURNS) <= most_noise * all);
 }
 
-/* One draw has noise of 50 to 90 % here. 16 independent ones would have a quarter of it; a systematic sample has less. */
+/* One draw has noise of 50 to 90 % here. 16 independent ones would have a quarter of it; a
+ * systematic sample has less. */
 static void test_draws_have_the_mean_of_all_lights(void **state)
 {
     (void)state;
@@ -297,7 +298,8 @@ static struct light_mesh band_mesh(struct band *band)
     };
 }
 
-/* Estimates by triangles of the tree and by points of the whole area agree; those have less noise. */
+/* Estimates by triangles of the tree and by points of the whole area agree; those have less
+ * noise. */
 static void test_triangles_of_a_mesh_are_drawn(void **state)
 {
     (void)state;
@@ -344,7 +346,8 @@ static ps_rgb speck(const void *user, ps_vec3 position, const struct shape_point
     return (ps_rgb){lit, lit, lit};
 }
 
-/* What is known of a pattern by points may be all dark; the light is in the tree, by its parts or whole. */
+/* What is known of a pattern by points may be all dark; the light is in the tree, by its parts or
+ * whole. */
 static void test_light_whose_pattern_is_missed(void **state)
 {
     (void)state;

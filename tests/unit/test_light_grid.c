@@ -1,5 +1,5 @@
-/* test_light_grid.c: spherical harmonics of order 1, and the grids of `lpv`: flux stays, walls stop it, cascades keep light
- * apart by where it comes from. */
+/* test_light_grid.c: spherical harmonics of order 1, and the grids of `lpv`: flux stays, walls stop
+ * it, cascades keep light apart by where it comes from. */
 #include "../plugins/estimator/lpv/cascades.h"
 #include "support/one_strategy.h"
 
@@ -31,7 +31,8 @@ static float sh_evaluate(const struct sh *f, ps_vec3 w)
     return f->c[0] * SH_Y0 + (f->c[1] * w.x + f->c[2] * w.y + f->c[3] * w.z) * SH_Y1;
 }
 
-/* Coefficients are the integrals of the function times each basis function, and reproduce order 1. */
+/* Coefficients are the integrals of the function times each basis function, and reproduce order
+ * 1. */
 static void test_clamped_cosine(void **state)
 {
     (void)state;
@@ -121,7 +122,8 @@ static double power_under_way(const struct light_grid *light)
     return sum;
 }
 
-/* As long as no light reaches the border, all of it is there after each step, and more of it where it shines to. */
+/* As long as no light reaches the border, all of it is there after each step, and more of it where
+ * it shines to. */
 static void test_flux_stays(void **state)
 {
     (void)state;

@@ -61,8 +61,9 @@ static void test_light_that_is_seen(void **state)
         assert_true(i == 42 || (shares[i] >= 0.0019f && shares[i] < 0.02f));
 }
 
-/* Of two lights that were found often, the one with a hundredth of the other's light has a tenth of its share, besides
- * what power gives to both; so has one of the same light and a hundredth of the power. */
+/* Of two lights that were found often, the one with a hundredth of the other's light has a tenth of
+ * its share, besides what power gives to both; so has one of the same light and a hundredth of the
+ * power. */
 static void test_root_of_light_and_power(void **state)
 {
     (void)state;

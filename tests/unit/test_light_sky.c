@@ -39,7 +39,8 @@ static struct sky_picture spotted(float night)
     return (struct sky_picture){WIDTH, HEIGHT, (const float(*)[3])rgb};
 }
 
-/* Shadows of an even sky are soft, and of one with a patch as wide as a hand's span, but not of one with a sun. */
+/* Shadows of an even sky are soft, and of one with a patch as wide as a hand's span, but not of one
+ * with a sun. */
 static void test_softness(void **state)
 {
     (void)state;
@@ -131,8 +132,8 @@ static void test_density_of_samples_is_that_of_their_direction(void **state)
     light_release(&light);
 }
 
-/* Before a surface that takes light by the cosine, all samples of an even sky tell its irradiance; those of a
- * picture do not change. */
+/* Before a surface that takes light by the cosine, all samples of an even sky tell its irradiance;
+ * those of a picture do not change. */
 static void test_by_the_cosine(void **state)
 {
     (void)state;

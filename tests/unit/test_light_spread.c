@@ -1,5 +1,5 @@
-/* test_light_spread.c: how far apart light lands that comes straight from the lights, and that splats of
- * automatic size follow it. */
+/* test_light_spread.c: how far apart light lands that comes straight from the lights, and that
+ * splats of automatic size follow it. */
 #include "host/photons.h"
 #include "placement/radius.h"
 #include "render/state.h"
@@ -33,7 +33,8 @@ static float spread_of(const char *text, const char *choice)
     return spread;
 }
 
-/* The mean of (2 tan(theta))^2 over the cone's solid angle is 4 (1 - c) / c, with c = cos(50 degrees). */
+/* The mean of (2 tan(theta))^2 over the cone's solid angle is 4 (1 - c) / c, with c = cos(50
+ * degrees). */
 static double spread_of_pool(void)
 {
     double c = cos(50 * 3.14159265358979 / 180);

@@ -1,4 +1,5 @@
-/* test_mapped_file.c: what files that are looked at hold in memory, and that they stay what they are. */
+/* test_mapped_file.c: what files that are looked at hold in memory, and that they stay what they
+ * are. */
 #include "base/mapped_file.h"
 #include "base/parallel.h"
 #include "scratch.h"

@@ -196,7 +196,8 @@ static void test_mix_is_the_sum_of_shares(void **state)
                 1e-6f);
 }
 
-/* Shares that vary over the surface are at each point what constant ones are: same lobes, values and densities. */
+/* Shares that vary over the surface are at each point what constant ones are: same lobes, values
+ * and densities. */
 static void test_varying_mix_is_a_mix(void **state)
 {
     (void)state;
@@ -230,8 +231,8 @@ static void test_varying_mix_is_a_mix(void **state)
     }
 }
 
-/* Paths of the camera end at a diffuse lobe and count all diffuse light of the surface there, divided by
- * the lobe's probability: on average once, whatever the components. */
+/* Paths of the camera end at a diffuse lobe and count all diffuse light of the surface there,
+ * divided by the lobe's probability: on average once, whatever the components. */
 static void test_diffuse_parts_count_once(void **state)
 {
     (void)state;
@@ -255,9 +256,11 @@ static void test_diffuse_parts_count_once(void **state)
     assert_true(fabs(ends / SAMPLES - 1.0) < 0.02);
 }
 
-/* --- glass -------------------------------------------------------------------------------------- */
+/* --- glass
+ * -------------------------------------------------------------------------------------- */
 
-/* Each that passes weighs the same, and each that is mirrored. Returns the share of the samples that passed. */
+/* Each that passes weighs the same, and each that is mirrored. Returns the share of the samples
+ * that passed. */
 static double share_that_passes(const struct material *glass, const struct meeting *meeting,
                                 ps_direction direction, double expected_sine, double passed_weight,
                                 double mirrored_weight)
@@ -290,7 +293,8 @@ static double fresnel(double cosine, double far_cosine, double eta)
     return 0.5 * (s * s + p * p);
 }
 
-/* At 60 degrees to the normal. Camera paths mirror an eighth of the time, since that is more than the share. */
+/* At 60 degrees to the normal. Camera paths mirror an eighth of the time, since that is more than
+ * the share. */
 static void test_glass_refracts(void **state)
 {
     (void)state;
@@ -325,12 +329,13 @@ static void test_power_is_not_squeezed(void **state)
     assert_true(fabs(mean_weight(&glass, 0.7f, PS_FROM_LIGHT) - 1) < 1e-5);
 }
 
-/* --- paths of a pixel ---------------------------------------------------------------------------- */
+/* --- paths of a pixel
+ * ---------------------------------------------------------------------------- */
 
 enum { MOST_PATHS = 8 };
 
-/* What `paths` paths carry on, with numbers that are evenly spaced from `offset` on. Those that go the same way are as many
- * as their strata say, with numbers that are evenly spaced in turn. */
+/* What `paths` paths carry on, with numbers that are evenly spaced from `offset` on. Those that go
+ * the same way are as many as their strata say, with numbers that are evenly spaced in turn. */
 static double carried_by_paths(const struct material *material, const struct meeting *meeting,
                                uint32_t paths, float offset)
 {
@@ -383,8 +388,8 @@ static void test_paths_share_lobes(void **state)
         expect_no_chance(coated, cosine);
 }
 
-/* One of eight goes by the glass of this mix, and is alone with its choice: it must not be the same number that chose the
- * lobe. */
+/* One of eight goes by the glass of this mix, and is alone with its choice: it must not be the same
+ * number that chose the lobe. */
 static void test_choices_of_a_mix_are_independent(void **state)
 {
     (void)state;
@@ -438,7 +443,8 @@ static void test_glass_absorbs_by_distance(void **state)
     assert_true(fabsf(on.weight.b - expf(-6)) < 1e-6f);
 }
 
-/* --- directions --------------------------------------------------------------------------------- */
+/* --- directions
+ * --------------------------------------------------------------------------------- */
 
 static void test_mirror_direction(void **state)
 {
@@ -497,8 +503,8 @@ static void test_tilted_normals(void **state)
     assert_true(through > 0);
 }
 
-/* Of what is diffuse alone light paths leave to the whole hemisphere, be it behind the shading normal or not, with what
- * Veach's factor takes where they arrive. */
+/* Of what is diffuse alone light paths leave to the whole hemisphere, be it behind the shading
+ * normal or not, with what Veach's factor takes where they arrive. */
 static void test_tilted_diffuse_normals(void **state)
 {
     (void)state;
@@ -519,8 +525,8 @@ static void test_tilted_diffuse_normals(void **state)
     assert_true(behind > 0);
 }
 
-/* Light that arrives along one way and leaves along the other is the same seen from either end, but for the cosines by which
- * the paths count; and each says the density of the other. */
+/* Light that arrives along one way and leaves along the other is the same seen from either end, but
+ * for the cosines by which the paths count; and each says the density of the other. */
 static void test_tilted_diffuse_normals_are_reciprocal(void **state)
 {
     (void)state;
@@ -541,7 +547,8 @@ static void test_tilted_diffuse_normals_are_reciprocal(void **state)
     }
 }
 
-/* --- gloss by the lights' own sampling ----------------------------------------------------------- */
+/* --- gloss by the lights' own sampling
+ * ----------------------------------------------------------- */
 
 /* Without a competing density the sum over all directions is the coat's albedo. */
 static void test_gloss_sums_to_the_coat(void **state)
@@ -583,7 +590,8 @@ static void test_shares_of_the_two_samplings_sum_to_one(void **state)
     }
 }
 
-/* --- what else a material says ------------------------------------------------------------------ */
+/* --- what else a material says
+ * ------------------------------------------------------------------ */
 
 static void test_emission_has_a_front(void **state)
 {
@@ -628,7 +636,8 @@ static void test_too_many_components(void **state)
     assert_int_equal(material_create(&description, 1, NULL, &material, &error), PS_ERROR_INVALID);
 }
 
-/* --- the table of rough reflectors -------------------------------------------------------------- */
+/* --- the table of rough reflectors
+ * -------------------------------------------------------------- */
 
 static int rows_for(struct material_description description)
 {

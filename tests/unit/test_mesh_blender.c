@@ -107,9 +107,10 @@ static void child_stands_in_its_parent(void **state)
 {
     (void)state;
     struct imported imported = import_blender();
-    /* child: (1, 0, 0) in the parent, half as high; parent: twice as large, turned by 90 degrees about
-     * z, at (1, 2, 3). The corner (0, 0, 1) of the child: (1, 0, 0.5), then (2, 0, 1), then (0, 2, 1),
-     * then (1, 4, 4); for us (1, 4, -4). Its corner (1, 0, 0): (1, 6, 3), for us (1, 3, -6). */
+    /* child: (1, 0, 0) in the parent, half as high; parent: twice as large, turned by 90 degrees
+     * about z, at (1, 2, 3). The corner (0, 0, 1) of the child: (1, 0, 0.5), then (2, 0, 1), then
+     * (0, 2, 1), then (1, 4, 4); for us (1, 4, -4). Its corner (1, 0, 0): (1, 6, 3), for us (1, 3,
+     * -6). */
     const struct object_description *child = &imported.fragment.objects[1];
     expect_vector(affine_point(&child->placement, (ps_vec3){0, 1, 0}), 1, 4, -4);
     expect_vector(affine_point(&child->placement, (ps_vec3){1, 0, 0}), 1, 3, -6);
@@ -126,8 +127,8 @@ static ps_vec3 middle_of(const struct imported *imported, size_t object)
     return ps_scale(sum, 1.0f / (float)mesh->vertex_count);
 }
 
-/* Plain (2) and mirrored (3) tetrahedra share a mesh: all its triangles and normals look outwards, once
- * the scene has turned those of the placement that mirrors. */
+/* Plain (2) and mirrored (3) tetrahedra share a mesh: all its triangles and normals look outwards,
+ * once the scene has turned those of the placement that mirrors. */
 static void mirrored_object_keeps_its_front(void **state)
 {
     (void)state;
@@ -230,8 +231,8 @@ static void only_what_is_asked_for_comes(void **state)
     release_imported(&imported);
 }
 
-/* Blender's default scene, as COLLADA and FBX (in centimetres): a cube of side 2, a camera and a bulb.
- * The files are the fuzzer's, which come after a byte that names the format. */
+/* Blender's default scene, as COLLADA and FBX (in centimetres): a cube of side 2, a camera and a
+ * bulb. The files are the fuzzer's, which come after a byte that names the format. */
 static void default_scene_is_alike_in_other_formats(void **state)
 {
     (void)state;

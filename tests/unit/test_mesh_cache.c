@@ -1,4 +1,5 @@
-/* test_mesh_cache.c: what was made of a mesh file comes from the cache while nothing that it depends on has changed. */
+/* test_mesh_cache.c: what was made of a mesh file comes from the cache while nothing that it
+ * depends on has changed. */
 #include "mesh_fixture.h"
 #include "scratch.h"
 
@@ -147,8 +148,8 @@ static void a_broken_entry(void **state)
     import_again(state, 1, 0.5, 0.1, 0.1, "Picture.png");
 }
 
-/* A file of the same name with other bytes, the same bytes under another name, and another request have entries of
- * their own. */
+/* A file of the same name with other bytes, the same bytes under another name, and another request
+ * have entries of their own. */
 static void other_entries(void **state)
 {
     struct scratch *scratch = *state;
@@ -194,7 +195,8 @@ static void a_cache_that_is_not_there(void **state)
     release_imported(&imported);
 }
 
-/* Each member that says what is read, and how, makes another digest; those that do not make none. */
+/* Each member that says what is read, and how, makes another digest; those that do not make
+ * none. */
 static void digests_of_requests(void **state)
 {
     (void)state;

@@ -23,7 +23,8 @@ static void expect_rgba(const float rgba[4], double r, double g, double b, doubl
     expect_near(rgba[3], a, 1e-6);
 }
 
-/* --- OBJ and PLY -------------------------------------------------------------------------------- */
+/* --- OBJ and PLY
+ * -------------------------------------------------------------------------------- */
 
 static void obj_colours_are_srgb_and_make_a_material(void **state)
 {
@@ -169,9 +170,11 @@ static void alpha_of_ply_is_told(void **state)
     release_imported(&imported);
 }
 
-/* --- glTF ------------------------------------------------------------------------------------------ */
+/* --- glTF
+ * ------------------------------------------------------------------------------------------ */
 
-/* A triangle, colours with alpha as floats, and two sets of coordinates; the same triangle without colours. */
+/* A triangle, colours with alpha as floats, and two sets of coordinates; the same triangle without
+ * colours. */
 static const float content[] = {0,     0,    0,    1, 0,    0, 0, 1,     0, 0.5f, 2, -1, 0.25f,
                                 0.5f,  0.5f, 0.5f, 1, 0.5f, 0, 1, 0.75f, 0, 0,    1, 0,  0,
                                 0.25f, 1,    1,    1, 0,    1, 1, 1,     0, 1,    1, 1,  0};

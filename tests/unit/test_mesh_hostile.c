@@ -187,9 +187,11 @@ static void file_without_triangles_is_refused(void **state)
     expect_failure(&imported, PS_ERROR_INVALID, "no triangles");
 }
 
-/* --- what makes assimp 5.2 crash, wait for ever, or use up the stack or the memory ------------------ */
+/* --- what makes assimp 5.2 crash, wait for ever, or use up the stack or the memory
+ * ------------------ */
 
-/* The error may be assimp's own, or that it crashed or took too long: that is its version's business. */
+/* The error may be assimp's own, or that it crashed or took too long: that is its version's
+ * business. */
 static void expect_refused(const char *path, const char *text)
 {
     struct mesh_request request = request_all(path);

@@ -1,4 +1,5 @@
-/* OBJ files: words and lines, corners that share vertices, polygons, parts; files of more than one piece. */
+/* OBJ files: words and lines, corners that share vertices, polygons, parts; files of more than one
+ * piece. */
 #include "mesh_fixture.h"
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -9,7 +10,8 @@ static void expect_parts(const struct imported *imported, size_t parts)
     assert_int_equal(imported->fragment.object_count, parts);
 }
 
-/* --- the text --------------------------------------------------------------------------------------- */
+/* --- the text
+ * --------------------------------------------------------------------------------------- */
 
 static void all_ways_of_writing_are_read(void **state)
 {
@@ -66,7 +68,8 @@ static void errors_name_the_line(void **state)
     }
 }
 
-/* --- vertices --------------------------------------------------------------------------------------- */
+/* --- vertices
+ * --------------------------------------------------------------------------------------- */
 
 static size_t vertex_count(const char *text)
 {
@@ -113,7 +116,8 @@ static void parts_follow_sections_and_materials(void **state)
     release_imported(&imported);
 }
 
-/* --- polygons --------------------------------------------------------------------------------------- */
+/* --- polygons
+ * --------------------------------------------------------------------------------------- */
 
 static double area_of(const struct imported *imported)
 {
@@ -209,7 +213,8 @@ static void crossing_polygons_lose_what_has_no_area(void **state)
     release_imported(&imported);
 }
 
-/* --- colours ---------------------------------------------------------------------------------------- */
+/* --- colours
+ * ---------------------------------------------------------------------------------------- */
 
 static void colors_must_be_of_all(void **state)
 {
@@ -230,11 +235,13 @@ static void colors_must_be_of_all(void **state)
     }
 }
 
-/* --- more than one piece ----------------------------------------------------------------------------- */
+/* --- more than one piece
+ * ----------------------------------------------------------------------------- */
 
 #define SIDE 400 /* squares along a side: some 5 MiB of text */
 
-/* Rows of squares, each row a part and its vertices just before it; indices count back in every second row. */
+/* Rows of squares, each row a part and its vertices just before it; indices count back in every
+ * second row. */
 static char *write_grid(bool wrong)
 {
     size_t size = (size_t)(SIDE + 1) * (SIDE + 1) * 100, length = 0;

@@ -1,9 +1,10 @@
-/* test_mesh_packed.c: glTF whose numbers are not plain floats: integers, meshopt, Draco; instances; pictures that only
- * an extension names. */
+/* test_mesh_packed.c: glTF whose numbers are not plain floats: integers, meshopt, Draco; instances;
+ * pictures that only an extension names. */
 #include "image/raster.h"
 #include "mesh_fixture.h"
 
-/* What every file here holds: (0, 0, 0), (2, 0, 0), (0, 4, 0), (0, 0, 1); triangles 0 1 2 and 0 2 3. */
+/* What every file here holds: (0, 0, 0), (2, 0, 0), (0, 4, 0), (0, 0, 1); triangles 0 1 2 and 0 2
+ * 3. */
 static const double corners[4][3] = {{0, 0, 0}, {2, 0, 0}, {0, 4, 0}, {0, 0, 1}};
 
 struct document {
@@ -67,9 +68,11 @@ static void refuse_document(const struct document *document, const char *words)
     expect_failure(&imported, PS_ERROR_INVALID, words);
 }
 
-/* --- integers ---------------------------------------------------------------------------------- */
+/* --- integers
+ * ---------------------------------------------------------------------------------- */
 
-/* Positions as shorts every 8 bytes; normals as bytes every 4; texture coordinates as shorts without a sign. */
+/* Positions as shorts every 8 bytes; normals as bytes every 4; texture coordinates as shorts
+ * without a sign. */
 static const struct {
     int16_t positions[4][4];
     int8_t normals[4][4];
@@ -179,7 +182,8 @@ static void unpacking_is_bounded(void **state)
     refuse_document(&document, "64 times as large");
 }
 
-/* --- meshopt, from its own encoder --------------------------------------------------------------- */
+/* --- meshopt, from its own encoder
+ * --------------------------------------------------------------- */
 
 static const unsigned char meshopt[] =
     {160, 0,   0, 0,  1,   60,  0,  0,   0,   128, 127, 0,   0,   1,   15,  0, 0,   0, 255, 255, 1,
@@ -269,7 +273,8 @@ static void damaged_meshopt_is_refused(void **state)
     }
 }
 
-/* --- Draco, from its own encoder ------------------------------------------------------------------ */
+/* --- Draco, from its own encoder
+ * ------------------------------------------------------------------ */
 
 static const unsigned char draco[] = {
     68,  82, 65, 67, 79,  2,   2,  1, 0, 0, 0,  2,  4, 1,  0,  1, 2,   0,  2, 3,  1,   1,
@@ -315,7 +320,8 @@ static void draco_is_unpacked(void **state)
     refuse_document(&document, "d/m.gltf: ");
 }
 
-/* --- instances ----------------------------------------------------------------------------------- */
+/* --- instances
+ * ----------------------------------------------------------------------------------- */
 
 /* Rotations are a half turn about y and none, as bytes; scales are floats. */
 static const struct {
@@ -476,7 +482,8 @@ static void instances_are_bounded(void **state)
     refuse_document(&document, "1000000 objects");
 }
 
-/* --- pictures ------------------------------------------------------------------------------------- */
+/* --- pictures
+ * ------------------------------------------------------------------------------------- */
 
 static struct imported import_texture(const char *texture)
 {

@@ -1,4 +1,5 @@
-/* test_mesh_ply.c: PLY files: binary ones, with numbers of all types and either order of bytes, and texts. */
+/* test_mesh_ply.c: PLY files: binary ones, with numbers of all types and either order of bytes, and
+ * texts. */
 #include "mesh_fixture.h"
 
 /* A file that is being written. */
@@ -176,7 +177,8 @@ static void colours_of_other_types(void **state)
     release_imported(&imported);
 }
 
-/* A dart: a fan from its first corner would leave it. A line and a point are no triangles, nor is what has no area. */
+/* A dart: a fan from its first corner would leave it. A line and a point are no triangles, nor is
+ * what has no area. */
 static void polygons(void **state)
 {
     (void)state;
@@ -320,7 +322,8 @@ static void other_elements(void **state)
     release_imported(&imported);
 }
 
-/* --- texts ------------------------------------------------------------------------------------------- */
+/* --- texts
+ * ------------------------------------------------------------------------------------------- */
 
 /* An element is a line, however it ends; what follows the numbers is nothing. */
 static void a_text(void **state)

@@ -138,7 +138,8 @@ static void test_pixels_left_out(void **state)
     assert_near(evaluate(METRIC_P99, &pair), 0.1, 1e-6);
 }
 
-/* 264 pixels count, of which 1 % are two: the third largest difference. Of all 576, it were the sixth. */
+/* 264 pixels count, of which 1 % are two: the third largest difference. Of all 576, it were the
+ * sixth. */
 static void test_p99_of_what_counts(void **state)
 {
     (void)state;

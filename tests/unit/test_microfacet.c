@@ -1,4 +1,5 @@
-/* test_microfacet.c: the GGX reflector: its sampling against its density, its energy, its symmetry. */
+/* test_microfacet.c: the GGX reflector: its sampling against its density, its energy, its
+ * symmetry. */
 #include "scene/microfacet.h"
 #include "support/chi_squared.h"
 #include "support/random.h"

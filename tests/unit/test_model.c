@@ -17,7 +17,8 @@ struct content {
     struct box box; /* around the first */
 };
 
-/* The faces of a box of corners as box_corner numbers them, outwards, those at the low and high x, y, z first. */
+/* The faces of a box of corners as box_corner numbers them, outwards, those at the low and high x,
+ * y, z first. */
 static const uint32_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
@@ -186,7 +187,8 @@ static void test_camera_looks_through_the_open_side(void **state)
     }
 }
 
-/* --- the scene ------------------------------------------------------------------------------------ */
+/* --- the scene
+ * ------------------------------------------------------------------------------------ */
 
 static void expect_in(const char *text, const char *part, bool expected)
 {

@@ -136,7 +136,8 @@ static void test_gradients(void **state)
     }
 }
 
-/* Of the noise over a square of that width around a point, across an axis that is none of the lattice's. */
+/* Of the noise over a square of that width around a point, across an axis that is none of the
+ * lattice's. */
 static double mean_of_square(ps_vec3 middle, float width)
 {
     enum { SIDE = 12 };
@@ -152,7 +153,8 @@ static double mean_of_square(ps_vec3 middle, float width)
     return sum / (SIDE * SIDE);
 }
 
-/* Octaves that are as fine as the square fade, and what is left is nearer to the mean than the value in the middle is. */
+/* Octaves that are as fine as the square fade, and what is left is nearer to the mean than the
+ * value in the middle is. */
 static void test_octaves_fade(void **state)
 {
     static const float widths[] = {0.2f, 0.5f, 1.0f};

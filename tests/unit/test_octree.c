@@ -1,5 +1,5 @@
-/* test_octree.c: the leaves of an octree that is a sorted list, against those of one that is split as
- * the definition says. */
+/* test_octree.c: the leaves of an octree that is a sorted list, against those of one that is split
+ * as the definition says. */
 #include "support/random.h"
 #include "support/stratify.h"
 #include <setjmp.h>

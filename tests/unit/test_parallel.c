@@ -1,5 +1,5 @@
-/* Loops over workers: every index once, numbers of workers in their range, the floating-point mode, and that
- * whoever waits sleeps. */
+/* Loops over workers: every index once, numbers of workers in their range, the floating-point mode,
+ * and that whoever waits sleeps. */
 #include "base/parallel.h"
 
 #include "support/memory_limit.h"

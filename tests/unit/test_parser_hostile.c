@@ -52,7 +52,8 @@ static void test_yaml(void **state)
 static void test_caps(void **state)
 {
     (void)state;
-    /* libyaml alone takes time by the square of the depth: it would not end within the test's limit. */
+    /* libyaml alone takes time by the square of the depth: it would not end within the test's
+     * limit. */
     expect_repeated("[", 4000000, "1:65: error: nested deeper than 64 levels\n");
     expect_repeated("{a: ", 1000000, "1:257: error: nested deeper than 64 levels\n");
     expect_repeated("- ", 1000000, "1:129: error: nested deeper than 64 levels\n");

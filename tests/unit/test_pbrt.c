@@ -10,7 +10,8 @@
 #include "unit/scratch.h"
 #include <math.h>
 
-/* --- tokens ----------------------------------------------------------------------------------------- */
+/* --- tokens
+ * ----------------------------------------------------------------------------------------- */
 
 static void expect_token(struct lexer *lexer, enum token_kind kind, const char *text, int line,
                          int column, int width)
@@ -90,7 +91,8 @@ static void test_guesses_versions(void **state)
     assert_int_equal(version_of("Shape \"x\" \"bool b\" true"), 4);
 }
 
-/* --- transforms ------------------------------------------------------------------------------------- */
+/* --- transforms
+ * ------------------------------------------------------------------------------------- */
 
 static void expect_near(struct vector got, double x, double y, double z)
 {
@@ -141,7 +143,8 @@ static void test_keeps_sides_of_normals(void **state)
     assert_true(n.x > 0);
 }
 
-/* --- spectra ---------------------------------------------------------------------------------------- */
+/* --- spectra
+ * ---------------------------------------------------------------------------------------- */
 
 static void expect_rgb(const double rgb[3], double r, double g, double b, double within)
 {
@@ -199,7 +202,8 @@ static void test_remaps_roughness(void **state)
     assert_true(roughness_from(0, true, 4) == 0.0);
 }
 
-/* --- names ------------------------------------------------------------------------------------------ */
+/* --- names
+ * ------------------------------------------------------------------------------------------ */
 
 static void test_finds_the_latest_of_a_name(void **state)
 {
@@ -220,7 +224,8 @@ static void test_finds_the_latest_of_a_name(void **state)
     name_index_release(&index);
 }
 
-/* --- subdivision ------------------------------------------------------------------------------------ */
+/* --- subdivision
+ * ------------------------------------------------------------------------------------ */
 
 static void test_subdivides_an_octahedron(void **state)
 {
@@ -240,8 +245,8 @@ static void test_subdivides_an_octahedron(void **state)
     assert_true(subdivision_refine(&importer, &statement, &mesh, 2));
     assert_int_equal(mesh.triangle_count, 8 * 16);
     assert_int_equal(mesh.vertex_count, 2 + 8 * 16 / 2); /* Euler */
-    /* A corner's limit: valence 4, whose neighbours sum to 0: 1 - 4 / (4 + 3 / (8 * 3/32)) = 1/2 of it; the rule
-     * of a level keeps limits where they are. */
+    /* A corner's limit: valence 4, whose neighbours sum to 0: 1 - 4 / (4 + 3 / (8 * 3/32)) = 1/2 of
+     * it; the rule of a level keeps limits where they are. */
     expect_near(mesh.points[0], 0, 0, 0.5);
     expect_near(mesh.points[1], 0.5, 0, 0);
     /* pbrt's normals point inwards here. */

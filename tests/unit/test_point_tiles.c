@@ -1,4 +1,5 @@
-/* test_point_tiles.c: points that are no pixels find their way into tiles and back, for any number of them. */
+/* test_point_tiles.c: points that are no pixels find their way into tiles and back, for any number
+ * of them. */
 #include "splat/point_tiles.h"
 #include "splat/pyramid.h"
 #include "support/workers.h"

@@ -1,5 +1,5 @@
-/* test_portals.c: rays of the sky that go through windows (direct/portals.h), and windows that rays tell of
- * (importance/lit_rectangles.h).
+/* test_portals.c: rays of the sky that go through windows (direct/portals.h), and windows that rays
+ * tell of (importance/lit_rectangles.h).
  */
 #include "direct/portals.h"
 

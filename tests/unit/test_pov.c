@@ -7,7 +7,8 @@
 #include "unit/scratch.h"
 #include <math.h>
 
-/* --- tokens --------------------------------------------------------------------------------------- */
+/* --- tokens
+ * --------------------------------------------------------------------------------------- */
 
 static void test_cuts_tokens(void **state)
 {
@@ -41,7 +42,8 @@ static void test_cuts_tokens(void **state)
     arena_release(&arena);
 }
 
-/* --- scenes --------------------------------------------------------------------------------------- */
+/* --- scenes
+ * --------------------------------------------------------------------------------------- */
 
 /* The .psd of a text, to be freed; NULL: it has an error, of which `message` says the first. */
 static char *convert(const char *text, char message[512])
@@ -183,7 +185,8 @@ static void test_executes_directives(void **state)
     expect("#version 3.5; sphere { 0, version }", "radius: 3.5,");
     expect("#version 3.5 #declare V = version; sphere { 0, V }", "radius: 3.5,");
     expect("#version 3.5 #if (version = 3.5) sphere { 0, 2 } #end", "radius: 2,");
-    /* A macro in the value makes the name another thing than the array whose element is assigned or asked for. */
+    /* A macro in the value makes the name another thing than the array whose element is assigned or
+     * asked for. */
     static const char other[] = "#declare A = array[2]; #macro M() #declare A = 5; 1 #end ";
     char text[256];
     snprintf(text, sizeof text, "%s#declare A[0] = M(); sphere { 0, A }", other);
@@ -243,7 +246,8 @@ static void test_ends_what_does_not_end(void **state)
     expect_error("sphere { 0, 1 pigment { image_map { png \"a", "a text that does not end");
 }
 
-/* --- objects -------------------------------------------------------------------------------------- */
+/* --- objects
+ * -------------------------------------------------------------------------------------- */
 
 static void test_places_objects(void **state)
 {
@@ -457,7 +461,8 @@ static void test_reads_rare_forms(void **state)
                    "box");
 }
 
-/* --- solids --------------------------------------------------------------------------------------- */
+/* --- solids
+ * --------------------------------------------------------------------------------------- */
 
 /* Of the triangles of a cube, with sides from -1 to 1, cut by x < 0. */
 static void test_cuts_polygons(void **state)

@@ -91,12 +91,14 @@ static void test_edges_stop_it(void **state)
     assert_true(crosses(bent_floor(20, 0), CHOICE ":normal=21,distance=1000"));
     assert_false(crosses(bent_floor(0, 0.3f), CHOICE ":distance=0.3"));
     assert_true(crosses(bent_floor(0, 0.3f), CHOICE ":distance=0.5"));
-    /* A fifth of the bandwidth: 0.12 for 6 pixels of 0.1. Either point is as far off the other's plane. */
+    /* A fifth of the bandwidth: 0.12 for 6 pixels of 0.1. Either point is as far off the other's
+     * plane. */
     assert_false(crosses(bent_floor(0, 0.4f), CHOICE));
     assert_true(crosses(bent_floor(0, 0.05f), CHOICE));
 }
 
-/* A thread of one pixel's width, which the centres of fits pass by, in the air before a floor of other light. */
+/* A thread of one pixel's width, which the centres of fits pass by, in the air before a floor of
+ * other light. */
 static void test_thin_things_keep_their_light(void **state)
 {
     (void)state;
@@ -129,7 +131,8 @@ static struct outcome outcome_of(const struct picture *picture, int channel)
     return outcome;
 }
 
-/* Noise of a deviation of 0.58, the same in all channels, as that of paths nearly is; in two halves, 0.82 each. */
+/* Noise of a deviation of 0.58, the same in all channels, as that of paths nearly is; in two
+ * halves, 0.82 each. */
 static void add_noise(struct picture *picture, uint64_t seed)
 {
     struct random random = {seed};
@@ -170,7 +173,8 @@ static void test_noise_falls_and_the_mean_stays(void **state)
     expect_noise_to_fall(true);
 }
 
-/* What is finer than a few pixels: the deviation of light from the mean of its neighbours two pixels off. */
+/* What is finer than a few pixels: the deviation of light from the mean of its neighbours two
+ * pixels off. */
 static double grain_of(const struct picture *picture)
 {
     double sum = 0;
@@ -185,7 +189,8 @@ static double grain_of(const struct picture *picture)
     return sqrt(sum / count);
 }
 
-/* Of even light with independent noise, a mean over seeds: what chance lets pass for a narrow band of signal. */
+/* Of even light with independent noise, a mean over seeds: what chance lets pass for a narrow band
+ * of signal. */
 static double mean_grain(bool halves)
 {
     static float room[2][3][PIXELS];
@@ -254,7 +259,8 @@ static void test_shared_noise_of_gloss_is_noise(void **state)
     expect_shared_noise_to_fall("in gloss", picture, 0.1);
 }
 
-/* So it is where samples are taken at edges: strips of two pixels, every other one far above the floor. */
+/* So it is where samples are taken at edges: strips of two pixels, every other one far above the
+ * floor. */
 static void test_shared_noise_at_edges_is_noise(void **state)
 {
     (void)state;
@@ -265,7 +271,8 @@ static void test_shared_noise_at_edges_is_noise(void **state)
     expect_shared_noise_to_fall("at edges", picture, 0.3);
 }
 
-/* A disc of light ten pixels wide, as a caustic is: halves tell that it is no noise, a single pass cannot know. */
+/* A disc of light ten pixels wide, as a caustic is: halves tell that it is no noise, a single pass
+ * cannot know. */
 static double lost_of_disc(float (*halves)[3][PIXELS])
 {
     struct picture *picture = level_floor(), *truth = level_floor();
@@ -295,7 +302,8 @@ static void test_what_is_no_noise_stays(void **state)
     assert_true(unknown > 0.1);
 }
 
-/* A disc of sun, whose border is a penumbra of few shadow rays: its inside is nothing that few pixels found by chance. */
+/* A disc of sun, whose border is a penumbra of few shadow rays: its inside is nothing that few
+ * pixels found by chance. */
 static void test_sun_beside_noise_stays(void **state)
 {
     (void)state;
@@ -324,7 +332,8 @@ static void test_sun_beside_noise_stays(void **state)
     free(picture);
 }
 
-/* One pixel as bright as a thousand: what is left of it is no speckle, and nothing of its light is lost. */
+/* One pixel as bright as a thousand: what is left of it is no speckle, and nothing of its light is
+ * lost. */
 static void test_outliers_spread(void **state)
 {
     (void)state;
@@ -385,8 +394,9 @@ static void test_outliers_of_gloss_spread(void **state)
 
 /* --- thin things --- */
 
-/* Gives the pixels whose place is 3 of every `period` noise of a deviation of 0.29, which the rest of the floor has not,
- * and a height or a slant that no other pixel near by has. Returns the deviation that is left of it. */
+/* Gives the pixels whose place is 3 of every `period` noise of a deviation of 0.29, which the rest
+ * of the floor has not, and a height or a slant that no other pixel near by has. Returns the
+ * deviation that is left of it. */
 static double deviation_left(int period, bool slanted)
 {
     struct picture *picture = level_floor();
@@ -432,7 +442,8 @@ static float light_of_beam(int x)
     return x / PATCH % 2 ? 2.0f : 0.5f;
 }
 
-/* A beam before a noisy floor, half of it in the sun, half in shadow. Returns how far it is off, in the mean. */
+/* A beam before a noisy floor, half of it in the sun, half in shadow. Returns how far it is off, in
+ * the mean. */
 static double error_of_beam(uint64_t seed)
 {
     struct picture *picture = level_floor();

@@ -1,5 +1,5 @@
-/* test_regression_fit.c: fits of the denoiser `regression`, which pass over pixels by bounds of what those show, in windows
- * that light steers. */
+/* test_regression_fit.c: fits of the denoiser `regression`, which pass over pixels by bounds of
+ * what those show, in windows that light steers. */
 #include "../../plugins/denoiser/regression/bounds.h"
 #include "../../plugins/denoiser/regression/fit.h"
 #include "../../plugins/denoiser/regression/steering.h"
@@ -32,7 +32,8 @@ static float *new_plane(struct fixture *fixture)
     return plane;
 }
 
-/* Boxes of a few pixels at random heights, slanted at random, of two kinds of gloss; some show nothing. */
+/* Boxes of a few pixels at random heights, slanted at random, of two kinds of gloss; some show
+ * nothing. */
 static void set_pixel(struct fixture *fixture, struct random *random, int x, int y)
 {
     struct regression *surfaces = &fixture->surfaces;

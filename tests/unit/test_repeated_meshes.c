@@ -153,7 +153,8 @@ static void patterns_in_space_stay(void **state)
     assert_int_equal(instances_of(COPIES, OUTER), 0);
 }
 
-/* --- what rays meet ----------------------------------------------------------------------------------- */
+/* --- what rays meet
+ * ----------------------------------------------------------------------------------- */
 
 static void trace_copies(bool shared, enum ray_kind kind, const ps_ray *rays, ps_hit *hits)
 {

@@ -44,7 +44,8 @@ static void test_dominant(void **state)
     stage_release(&stage);
 }
 
-/* Of the photons 3, 1, 0 and 6 of each cell, how often the i-th stays; in one pass, and one seed. */
+/* Of the photons 3, 1, 0 and 6 of each cell, how often the i-th stays; in one pass, and one
+ * seed. */
 static void test_random_goes_by_power(void **state)
 {
     (void)state;

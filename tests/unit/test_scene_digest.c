@@ -1,5 +1,6 @@
-/* test_scene_digest.c: every member of a description counts. Bytes that change nothing are those of pointers, of where
- * things were written, and gaps, which are listed here: a new member shows up as bytes that ought to count. */
+/* test_scene_digest.c: every member of a description counts. Bytes that change nothing are those of
+ * pointers, of where things were written, and gaps, which are listed here: a new member shows up as
+ * bytes that ought to count. */
 #include "base/digest.h"
 #include "scene/scene_digest.h"
 

@@ -1,4 +1,5 @@
-/* test_scene_message.c: a scene that one process has read reaches others whole, without the files that it names. */
+/* test_scene_message.c: a scene that one process has read reaches others whole, without the files
+ * that it names. */
 #include "job/scene_message.h"
 #include "parser/psd.h"
 #include "scene/scene.h"
@@ -17,7 +18,8 @@
 
 #define MOST_RANKS 7
 
-/* --- processes with a pipe from each to each ------------------------------------------------------- */
+/* --- processes with a pipe from each to each
+ * ------------------------------------------------------- */
 
 static int pipes[MOST_RANKS][MOST_RANKS][2];
 static int own_rank;
@@ -81,7 +83,8 @@ static void expect_success(int size, const pid_t children[])
         }
 }
 
-/* --- a scene of many blocks ------------------------------------------------------------------------ */
+/* --- a scene of many blocks
+ * ------------------------------------------------------------------------ */
 
 static const char text[] =
     "psd: 1\n"
@@ -192,7 +195,8 @@ static void test_every_rank_has_the_scene(void **state)
     scene_description_release(&description);
 }
 
-/* --- without a scene ------------------------------------------------------------------------------- */
+/* --- without a scene
+ * ------------------------------------------------------------------------------- */
 
 static int receive_none(const struct transport *transport, const void *expected)
 {

@@ -1,4 +1,5 @@
-/* test_schedule.c: budgets of time and error, and what is due on the way, on a clock of the test's own. */
+/* test_schedule.c: budgets of time and error, and what is due on the way, on a clock of the test's
+ * own. */
 #include "job/schedule.h"
 
 #include <math.h>
@@ -63,7 +64,8 @@ static void test_checkpoints(void **state)
     assert_true(schedule_wants_checkpoint(&schedule, 1162));
 }
 
-/* Looked at after the first pass, and then when it may be met; at most twice as many passes later. */
+/* Looked at after the first pass, and then when it may be met; at most twice as many passes
+ * later. */
 static void test_error(void **state)
 {
     (void)state;

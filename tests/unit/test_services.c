@@ -1,4 +1,5 @@
-/* test_services.c: what plugins are told of the scene agrees with what rays and sampling find of it. */
+/* test_services.c: what plugins are told of the scene agrees with what rays and sampling find of
+ * it. */
 #include "host/host.h"
 #include "support/inject.h"
 #include "support/lit_room.h"
@@ -39,8 +40,8 @@ struct sums {
     double value, pdf, sampled, share;
 };
 
-/* The integral of the BSDF over the hemisphere by directions that know nothing of it, and by its own; without
- * mirrors. And what its density adds up to, and how often it draws such directions. */
+/* The integral of the BSDF over the hemisphere by directions that know nothing of it, and by its
+ * own; without mirrors. And what its density adds up to, and how often it draws such directions. */
 static struct sums integrate(const ps_host *host, ps_direction direction, const ps_ray *ray,
                              const ps_hit *hit)
 {
@@ -204,7 +205,8 @@ static void test_light_samples_add_up(void **state)
 
 #define GROUP_RAYS 300
 
-/* Light of both groups adds up to that of all lights, ray by ray, whatever the other rays ask for. */
+/* Light of both groups adds up to that of all lights, ray by ray, whatever the other rays ask
+ * for. */
 static void add_groups(const ps_host *host, double sums[4])
 {
     ps_ray rays[GROUP_RAYS];
@@ -264,7 +266,8 @@ static void test_groups_of_lights_add_up(void **state)
 #define RAYS 400000
 #define PLACE_RADIUS 0.25f
 
-/* The share of light paths that pass through a ball around the place, over the area that it shows. */
+/* The share of light paths that pass through a ball around the place, over the area that it
+ * shows. */
 static double density_by_rays(const ps_host *host, ps_vec3 place)
 {
     struct random random = {11};
@@ -289,7 +292,8 @@ static double density_by_rays(const ps_host *host, ps_vec3 place)
     return (double)passed / RAYS / (double)(PS_PI * PLACE_RADIUS * PLACE_RADIUS);
 }
 
-/* Points that sample_light draws have the density that they tell, and by their arrival that of light paths. */
+/* Points that sample_light draws have the density that they tell, and by their arrival that of
+ * light paths. */
 static void compare_densities(const ps_host *host)
 {
     static const ps_vec3 place = {0.6f, 1.2f, -0.4f};
@@ -385,7 +389,8 @@ static void test_objects_that_shine_or_are_hidden(void **state)
                  look_at_objects);
 }
 
-/* The point of a triangle is where a ray at right angles to it meets the surface, with all that a ray learns of it. */
+/* The point of a triangle is where a ray at right angles to it meets the surface, with all that a
+ * ray learns of it. */
 static void compare_point(const ps_host *host, const ps_triangle *triangle, uint32_t number,
                           uint32_t back)
 {
@@ -554,7 +559,8 @@ static void count_tile(void *user, uint64_t index, uint32_t worker)
     visits[index]++;
 }
 
-/* A tile that is there shows the same; of a module's shorter struct, nothing behind its end is written to. */
+/* A tile that is there shows the same; of a module's shorter struct, nothing behind its end is
+ * written to. */
 static void look_at_tile_surfaces(const ps_host *host)
 {
     const ps_tile *there = host->tile(host, 0);

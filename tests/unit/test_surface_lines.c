@@ -1,5 +1,5 @@
-/* test_surface_lines.c: lines through a grid find both sides of a sphere, with its area, whatever the grid's shift; and
- * places and cells of grids. */
+/* test_surface_lines.c: lines through a grid find both sides of a sphere, with its area, whatever
+ * the grid's shift; and places and cells of grids. */
 #include "../plugins/estimator/shared/surface_lines.h"
 #include "support/one_strategy.h"
 

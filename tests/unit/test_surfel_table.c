@@ -1,4 +1,5 @@
-/* test_surfel_table.c: what lies around a ray's end, by cubes of surfels (plugins/estimator/gather/surfel_table.h). */
+/* test_surfel_table.c: what lies around a ray's end, by cubes of surfels
+ * (plugins/estimator/gather/surfel_table.h). */
 #include "plugins/estimator/gather/surfel_table.h"
 
 #include "support/random.h"
@@ -103,7 +104,8 @@ static struct gather_landing landing_at(ps_vec3 position, ps_vec3 normal, float 
         position, normal, length, {random_unit(random), random_unit(random)}, 0};
 }
 
-/* On average over the random numbers, what lies around a point is what is there, where light is linear. */
+/* On average over the random numbers, what lies around a point is what is there, where light is
+ * linear. */
 static void test_finds_the_light_of_a_place(void **state)
 {
     const struct floor *floor = *state;
@@ -153,7 +155,8 @@ static void test_knows_nothing_elsewhere(void **state)
     assert_false(is_known_at(floor, far, up, LENGTH));
 }
 
-/* A cube of more than 0.6 lengths says nothing of a ray's end; smaller ones hold no surfels of such long rays. */
+/* A cube of more than 0.6 lengths says nothing of a ray's end; smaller ones hold no surfels of such
+ * long rays. */
 static void test_leaves_short_rays_to_paths(void **state)
 {
     const struct floor *floor = *state;

@@ -60,7 +60,8 @@ static ps_rgb sum(const ps_rgb *light, size_t first, size_t n)
     return total;
 }
 
-/* Each group has the light that its paths found, whether splats had too much of it, too little or none. */
+/* Each group has the light that its paths found, whether splats had too much of it, too little or
+ * none. */
 static void test_no_light_is_lost(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_texture_cache.c: pictures that lie in a folder are those that were decoded, texel by texel. */
+/* test_texture_cache.c: pictures that lie in a folder are those that were decoded, texel by
+ * texel. */
 #include "scene/texture_cache.h"
 
 #include "image/image.h"
@@ -229,7 +230,8 @@ static void test_truncated_picture(void **state)
     mapped_budget_destroy(storage.budget);
 }
 
-/* An entry that can't be written to its end: the picture lies in memory, as if there were no cache. */
+/* An entry that can't be written to its end: the picture lies in memory, as if there were no
+ * cache. */
 static void test_full_disk(void **state)
 {
     struct scratch *scratch = *state;

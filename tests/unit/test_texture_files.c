@@ -344,7 +344,8 @@ static void assert_is_half_exr(const struct texture *texture)
     }
 }
 
-/* The largest of several levels (exrmaketiled -m); of two parts the one with colours (exrmultipart -combine). */
+/* The largest of several levels (exrmaketiled -m); of two parts the one with colours (exrmultipart
+ * -combine). */
 static void test_exr_levels_and_parts(void **state)
 {
     (void)state;
@@ -356,7 +357,8 @@ static void test_exr_levels_and_parts(void **state)
     texture_release(&texture);
 }
 
-/* Of ACES 2065-1 (exrstdattr -chromaticities). Its matrix to Rec.709, by Bradford's adaptation, as published. */
+/* Of ACES 2065-1 (exrstdattr -chromaticities). Its matrix to Rec.709, by Bradford's adaptation, as
+ * published. */
 static void test_exr_chromaticities(void **state)
 {
     static const double matrix[3][3] = {{2.52168619, -1.13413099, -0.38755521},
@@ -386,7 +388,8 @@ static unsigned char *find_window(unsigned char *bytes, size_t size, const char 
     return NULL;
 }
 
-/* The display window is the picture: here without the first column and line of the data, and beyond them. */
+/* The display window is the picture: here without the first column and line of the data, and beyond
+ * them. */
 static void test_exr_display_window(void **state)
 {
     static const int32_t window[] = {1, 1, 4, 2}, large[] = {0, 0, 60000, 10000};

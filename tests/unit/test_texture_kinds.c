@@ -1,5 +1,5 @@
-/* test_texture_kinds.c: the kinds of pictures that only some builds read: TGA, BMP, Radiance HDR and WebP, byte by
- * byte; and those that none reads. */
+/* test_texture_kinds.c: the kinds of pictures that only some builds read: TGA, BMP, Radiance HDR
+ * and WebP, byte by byte; and those that none reads. */
 #include "texture_fixture.h"
 
 #define LINE_AT_TOP 0x20
@@ -229,7 +229,8 @@ static void assert_truncations_refused(struct bytes bytes)
     }
 }
 
-/* A picture of 2 by 3, whose pixels are 1 to 6, line by line from the top: in each of the eight orders. */
+/* A picture of 2 by 3, whose pixels are 1 to 6, line by line from the top: in each of the eight
+ * orders. */
 static void radiance_lines_in_any_order(void **state)
 {
     static const struct {

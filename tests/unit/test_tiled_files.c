@@ -152,7 +152,8 @@ static void test_rows_make_the_picture(void **state)
     scratch_expect_same_bytes(scratch_path(state, "whole.png"), scratch_path(state, "rows.png"));
 }
 
-/* --- what goes wrong ------------------------------------------------------------------------------- */
+/* --- what goes wrong
+ * ------------------------------------------------------------------------------- */
 
 static void test_discarded(void **state)
 {

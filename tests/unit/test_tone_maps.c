@@ -34,8 +34,8 @@ static void map_greys(const char *choice, float (*shown)[GREYS])
 static const char *const curves[] = {"tonemap=filmic", "tonemap=filmic:shoulder=0",
                                      "tonemap=reinhard:white=9", "tonemap=chroma"};
 
-/* From 0 upwards, grey stays grey, and there are no corners: slopes of neighbours differ by what a curve bends, which is
- * at most 2 over a step. */
+/* From 0 upwards, grey stays grey, and there are no corners: slopes of neighbours differ by what a
+ * curve bends, which is at most 2 over a step. */
 static void test_curves_rise_smoothly(void **state)
 {
     (void)state;

@@ -120,7 +120,8 @@ static double display_of(float linear)
     return 255.0 * (double)tonemap_srgb(linear);
 }
 
-/* Both bytes around a value come, as often as makes their mean the value: over 16x16 pixels, wherever they lie. */
+/* Both bytes around a value come, as often as makes their mean the value: over 16x16 pixels,
+ * wherever they lie. */
 static void test_dither(void **state)
 {
     uint8_t rgb[16][16][3];

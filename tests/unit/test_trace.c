@@ -1,5 +1,6 @@
-/* test_trace.c: what rays meet. A scene of few triangles has a tree for each shape, one of many has one for all of
- * them (trace.c): both must find the same, and let nothing through where triangles touch. */
+/* test_trace.c: what rays meet. A scene of few triangles has a tree for each shape, one of many has
+ * one for all of them (trace.c): both must find the same, and let nothing through where triangles
+ * touch. */
 #include "trace/trace.h"
 
 #include "support/random.h"

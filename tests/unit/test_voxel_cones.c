@@ -1,5 +1,5 @@
-/* test_voxel_cones.c: the volume and the cones of `voxel_cone`, on voxels made by hand: how levels put voxels together, and
- * what cones see in a box that shines, and of a wall. */
+/* test_voxel_cones.c: the volume and the cones of `voxel_cone`, on voxels made by hand: how levels
+ * put voxels together, and what cones see in a box that shines, and of a wall. */
 #include "../plugins/estimator/voxel_cone/cones.h"
 #include "support/one_strategy.h"
 
@@ -87,7 +87,8 @@ static double radiance(const struct fixture *fixture, ps_vec3 position, ps_vec3 
 
 /* --- levels --- */
 
-/* A wall of one voxel stays opaque, and keeps its dark side, on all levels; beside it nothing is there. */
+/* A wall of one voxel stays opaque, and keeps its dark side, on all levels; beside it nothing is
+ * there. */
 static void test_levels(void **state)
 {
     (void)state;
@@ -111,8 +112,8 @@ static void test_levels(void **state)
     finish(&fixture);
 }
 
-/* Shares of one surface that lies in two voxels behind each other add up; what is more than full is hidden by what is
- * before. */
+/* Shares of one surface that lies in two voxels behind each other add up; what is more than full is
+ * hidden by what is before. */
 static void test_pairs(void **state)
 {
     (void)state;
@@ -136,7 +137,8 @@ static void test_pairs(void **state)
     finish(&fixture);
 }
 
-/* Light that is added on a coarse level is that level's light, on it and above, and radiance as on a whole wall below. */
+/* Light that is added on a coarse level is that level's light, on it and above, and radiance as on
+ * a whole wall below. */
 static void test_added_light(void **state)
 {
     (void)state;
@@ -166,7 +168,8 @@ static void test_added_light(void **state)
 
 /* --- cones --- */
 
-/* A wall that covers a half passes a half of what is behind it, at any slope, and nothing gets through whole ones. */
+/* A wall that covers a half passes a half of what is behind it, at any slope, and nothing gets
+ * through whole ones. */
 static void test_transmittance(void **state)
 {
     (void)state;
@@ -215,7 +218,8 @@ static void test_own_surface(void **state)
     finish(&fixture);
 }
 
-/* In a closed box that shines a cone sees the same light everywhere, but for what its edges let through. */
+/* In a closed box that shines a cone sees the same light everywhere, but for what its edges let
+ * through. */
 static void test_box(void **state)
 {
     (void)state;
@@ -245,7 +249,8 @@ static void test_box(void **state)
     finish(&fixture);
 }
 
-/* The cones' axes have the mean height 2/3 that the cosine asks for, and look into all directions alike. */
+/* The cones' axes have the mean height 2/3 that the cosine asks for, and look into all directions
+ * alike. */
 static void test_cones(void **state)
 {
     (void)state;

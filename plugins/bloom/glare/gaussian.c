@@ -29,7 +29,8 @@ struct blur {
     atomic_bool failed;
 };
 
-/* The pixel that mirrors show at `i` pixels from the first; the picture repeats after twice its length. */
+/* The pixel that mirrors show at `i` pixels from the first; the picture repeats after twice its
+ * length. */
 static size_t mirrored(ptrdiff_t i, size_t length)
 {
     ptrdiff_t period = 2 * (ptrdiff_t)length, at = i % period;
@@ -50,8 +51,8 @@ static void fill_margins(float (*line)[LANES], size_t length, size_t margin)
     }
 }
 
-/* One box, from lines with margins to lines with margins. The sum is in double: what leaves it takes with it all that it
- * brought, but for rounding. */
+/* One box, from lines with margins to lines with margins. The sum is in double: what leaves it
+ * takes with it all that it brought, but for rounding. */
 static void run_box(const struct box *box, size_t length, const float (*from)[LANES],
                     float (*to)[LANES])
 {

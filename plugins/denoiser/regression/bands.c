@@ -1,5 +1,5 @@
-/* bands.c: B = F_R - F_2R of each bandwidth, multiplied by k = max(0, 1 - (c <N^2> / <B^2>)^2) and added up; regression.c has the formula
- * and its papers. */
+/* bands.c: B = F_R - F_2R of each bandwidth, multiplied by k = max(0, 1 - (c <N^2> / <B^2>)^2) and
+ * added up; regression.c has the formula and its papers. */
 #include "bands.h"
 
 #include "box.h"
@@ -7,8 +7,9 @@
 #include <psplat/isa.h>
 #include <psplat/math.h>
 
-/* c of that formula: where the wider band was kept, and where it was not. Past the first band of a single pass, whose noise contains some of
- * the light, GUESSED_THRESHOLD takes the place of THRESHOLD; in the last band, of the pixels themselves, PIXELS_THRESHOLD. */
+/* c of that formula: where the wider band was kept, and where it was not. Past the first band of a
+ * single pass, whose noise contains some of the light, GUESSED_THRESHOLD takes the place of
+ * THRESHOLD; in the last band, of the pixels themselves, PIXELS_THRESHOLD. */
 #define THRESHOLD 2.0f
 #define THRESHOLD_ALONE 4.0f
 #define GUESSED_THRESHOLD 1.2f
@@ -21,8 +22,9 @@
 
 static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
 
-/* Starts with the widest fit, F_48. Squares of bands are weighted by 1 / (F_48^2 + least^2), that is, relative to the light: else the bright
- * pixels of a window would decide about its dark ones. */
+/* Starts with the widest fit, F_48. Squares of bands are weighted by 1 / (F_48^2 + least^2),
+ * that is, relative to the light: else the bright pixels of a window would decide about its dark
+ * ones. */
 static void begin_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
@@ -121,7 +123,8 @@ static PS_INLINED float mean_of(float sum, float count)
     return sum / (count > 0.0f ? count : 1.0f);
 }
 
-/* What is kept of a band of mean square S, of which N is noise: 1 - (c N / S)^2, with the limit c N. */
+/* What is kept of a band of mean square S, of which N is noise: 1 - (c N / S)^2, with the limit c
+ * N. */
 static PS_INLINED float keep_of(float signal, float limit)
 {
     bool some = signal > limit;
@@ -129,8 +132,9 @@ static PS_INLINED float keep_of(float signal, float limit)
     return 1.0f - share * share;
 }
 
-/* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 - k)^2 (S - N), Stein's
- * estimate of the risk. Of what S exceeds N by, as much as half of the threshold is taken for chance. */
+/* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 -
+ * k)^2 (S - N), Stein's estimate of the risk. Of what S exceeds N by, as much as half of the
+ * threshold is taken for chance. */
 static PS_INLINED float risk_of_band(float signal, float noise, float threshold, float keep)
 {
     float lost = ps_max(signal - 0.5f * threshold * noise, 0.0f);
@@ -189,8 +193,9 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     add(row_of(user, row));
 }
 
-/* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one kind. One picture of the
- * noise is a poor estimate, so its square is averaged over a window of twice the radius. */
+/* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one
+ * kind. One picture of the noise is a poor estimate, so its square is averaged over a window of
+ * twice the radius. */
 static void add_band_of_kind(struct denoised_images *images, int count, int radius,
                              enum pixel_kind kind)
 {
@@ -235,8 +240,9 @@ static void swap_fits(struct denoised_image *image)
     }
 }
 
-/* The last band is measured relative to F_3, the light at the pixel itself: on the dark side of an edge F_48 is mostly the bright side's.
- * A part of F_48 counts at least, since F_3 may be wrong where it is dark. */
+/* The last band is measured relative to F_3, the light at the pixel itself: on the dark side of an
+ * edge F_48 is mostly the bright side's. A part of F_48 counts at least, since F_3 may be wrong
+ * where it is dark. */
 static void rescale_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;

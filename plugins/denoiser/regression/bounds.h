@@ -1,7 +1,9 @@
-/* bounds.h: bounds of what a few pixels of a row show, by which fits pass over pixels that are unlike their centre.
+/* bounds.h: bounds of what a few pixels of a row show, by which fits pass over pixels that are
+ * unlike their centre.
  *
- * Where things are small, most pixels of a window have no weight. Bounds of the positions, normals and shares of gloss
- * of a run of pixels (fit.h) tell that for all at once: n . x lies in n . c +- |n| . e for all points x of a box of centre c and half extents e.
+ * Where things are small, most pixels of a window have no weight. Bounds of the positions, normals
+ * and shares of gloss of a run of pixels (fit.h) tell that for all at once: n . x lies in n . c +-
+ * |n| . e for all points x of a box of centre c and half extents e.
  */
 #ifndef PSPLAT_DENOISER_REGRESSION_BOUNDS_H
 #define PSPLAT_DENOISER_REGRESSION_BOUNDS_H
@@ -10,7 +12,8 @@
 
 struct regression;
 
-/* Of a run. Centres and half extents; 0 where no surface is seen: the cosine of such normals with any other is 0, so they have no weight (bend_scale >= 1). */
+/* Of a run. Centres and half extents; 0 where no surface is seen: the cosine of such normals with
+ * any other is 0, so they have no weight (bend_scale >= 1). */
 struct regression_bounds {
     float normal[3], normal_extent[3];
     float position[3], position_extent[3];

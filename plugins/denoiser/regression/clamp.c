@@ -80,8 +80,8 @@ static float mean_brightness(const struct denoised_image *image, float *const pl
     return (float)(sum / count);
 }
 
-/* The noise of a pixel from its halves: with the share s of the samples in `odd`, sqrt(s (1 - s)) (even - odd) has the standard
- * deviation of the mean. */
+/* The noise of a pixel from its halves: with the share s of the samples in `odd`, sqrt(s (1 - s))
+ * (even - odd) has the standard deviation of the mean. */
 static float noise_of_halves(const ps_image_view *view, size_t pixel)
 {
     const float even[3] = {view->even_r[pixel], view->even_g[pixel], view->even_b[pixel]};
@@ -158,8 +158,8 @@ static bool is_alone(const struct denoised_image *image, size_t x, size_t y, flo
     return like <= (image->kind[y * image->width + x] == (float)GLOSSY ? FEW_IN_GLOSS : FEW);
 }
 
-/* Limits a pixel to FAR_ABOVE times the first fit, in `fine`, unless its brightness cannot be noise or, where the noise is known, several
- * pixels near it share it: a patch of sun is kept. */
+/* Limits a pixel to FAR_ABOVE times the first fit, in `fine`, unless its brightness cannot be noise
+ * or, where the noise is known, several pixels near it share it: a patch of sun is kept. */
 static void clamp_pixel(const struct denoised_image *image, size_t x, size_t y, size_t at)
 {
     size_t pixel = y * image->width + x;

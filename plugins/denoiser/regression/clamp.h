@@ -1,4 +1,5 @@
-/* clamp.h: the input of the fits: the irradiance, the same with outliers limited, and a picture of its noise. */
+/* clamp.h: the input of the fits: the irradiance, the same with outliers limited, and a picture of
+ * its noise. */
 #ifndef PSPLAT_DENOISER_REGRESSION_CLAMP_H
 #define PSPLAT_DENOISER_REGRESSION_CLAMP_H
 

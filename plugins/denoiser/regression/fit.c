@@ -9,8 +9,8 @@
 #define BLOCK 64       /* side of the squares of pixels that workers take */
 #define LEAST_FIT 0.5f /* weight of blended fits below which a pixel becomes a centre */
 
-/* The largest bandwidth around such a pixel. In one pass it is WIDE if the pixels of a narrow fit weigh less than THIN, but
- * no less than FEW. */
+/* The largest bandwidth around such a pixel. In one pass it is WIDE if the pixels of a narrow fit
+ * weigh less than THIN, but no less than FEW. */
 enum { NARROW = 24, WIDE = 48 };
 #define THIN 256.0f
 
@@ -122,8 +122,8 @@ static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
 
 /* --- what fits say, blended --- */
 
-/* Sums over the fits that reach into a square of pixels, with weights for each group of values: images with halves, and those
- * without. */
+/* Sums over the fits that reach into a square of pixels, with weights for each group of values:
+ * images with halves, and those without. */
 enum { WITH_HALVES, WITHOUT_HALVES, GROUPS };
 
 struct block {
@@ -133,8 +133,8 @@ struct block {
     float values[REGRESSION_MOST][BLOCK][BLOCK / LANES][LANES];
 };
 
-/* What a fit says of a run of pixels, in proportion to its weight there: one by geometry, times a tent that ends at
- * the centres next to it. */
+/* What a fit says of a run of pixels, in proportion to its weight there: one by geometry, times a
+ * tent that ends at the centres next to it. */
 static PS_INLINED void add_prediction(const struct fit_job *job, const struct regression_fit *fit,
                                       size_t run, int x, int y, struct block *block)
 {
@@ -211,10 +211,11 @@ static void blend_for(const struct fit_job *narrow, int bandwidth, struct regres
     blend(&rest, &fit, block);
 }
 
-/* A fit of its own for a pixel that the fits of the grid do not cover. Near creases, where a surface ends, a narrow window is best. On
- * thin surfaces (weight below THIN) it holds too few pixels, so images without halves, which are of one pass, take a WIDE one;
- * several passes mix surfaces at edges, and a wide window would take in pixels that only seem to be alike. Pixels with hardly
- * any match (weight below FEW) are fitted with looser limits (SLACK). */
+/* A fit of its own for a pixel that the fits of the grid do not cover. Near creases, where a
+ * surface ends, a narrow window is best. On thin surfaces (weight below THIN) it holds too few
+ * pixels, so images without halves, which are of one pass, take a WIDE one; several passes mix
+ * surfaces at edges, and a wide window would take in pixels that only seem to be alike. Pixels with
+ * hardly any match (weight below FEW) are fitted with looser limits (SLACK). */
 static void blend_one(const struct fit_job *job, int x, int y, const bool needs_fit[GROUPS],
                       struct block *block)
 {

@@ -1,6 +1,8 @@
-/* images.h: images that are denoised together, and the buffers that all stages of regression.c share.
+/* images.h: images that are denoised together, and the buffers that all stages of regression.c
+ * share.
  *
- * They show the same surfaces: indirect light, and the two parts of direct light. A plane holds a float for each pixel.
+ * They show the same surfaces: indirect light, and the two parts of direct light. A plane holds a
+ * float for each pixel.
  */
 #ifndef PSPLAT_DENOISER_REGRESSION_WORK_H
 #define PSPLAT_DENOISER_REGRESSION_WORK_H
@@ -12,8 +14,8 @@
 
 enum { NOISE = REGRESSION_COLOURS, VALUES = REGRESSION_VALUES };
 
-/* Kinds of pixels (kinds.h): GLOSSY, whose light is mostly mirrored; THIN, whose surface few pixels near by show; BROAD, the others;
- * NO_KIND, no surface. */
+/* Kinds of pixels (kinds.h): GLOSSY, whose light is mostly mirrored; THIN, whose surface few pixels
+ * near by show; BROAD, the others; NO_KIND, no surface. */
 enum pixel_kind { NO_KIND, BROAD, THIN, GLOSSY, KINDS };
 
 struct denoised_image {
@@ -22,11 +24,11 @@ struct denoised_image {
     size_t width, height;
     struct regression guides;
     ps_camera camera;
-    /* With a margin: irradiance / pi, and the same with outliers limited, which is fitted. The last value of `clamped` is a picture
-     * of the noise of the sum of the channels. */
+    /* With a margin: irradiance / pi, and the same with outliers limited, which is fitted. The last
+     * value of `clamped` is a picture of the noise of the sum of the channels. */
     float *light[VALUES], *clamped[VALUES];
-    /* Without: two fits, the sum of bands so far, and for the bands 1 / F_48^2, B^2, N^2 and a plane to smooth these in. Before
-     * the bands `noise` holds N, where halves tell it. */
+    /* Without: two fits, the sum of bands so far, and for the bands 1 / F_48^2, B^2, N^2 and a
+     * plane to smooth these in. Before the bands `noise` holds N, where halves tell it. */
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *inverse_square, *signal, *noise, *scratch;
     float *signal_weight,

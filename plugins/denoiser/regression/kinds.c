@@ -1,7 +1,7 @@
 #include "kinds.h"
 
-/* A pixel is compared with 24 others on a grid of STEP pixels, up to REACH steps away. It is THIN if fewer than FEW of them show its
- * surface. */
+/* A pixel is compared with 24 others on a grid of STEP pixels, up to REACH steps away. It is THIN
+ * if fewer than FEW of them show its surface. */
 #define REACH 2
 #define STEP 3
 #define FEW 6

@@ -1,6 +1,6 @@
-/* plane_fit.c: see plane_fit.h. Loops take a run of LANES pixels at a time, with weights of zero where they go too far, and
- * keep as many sums, so that a compiler makes vectors of them without changing the order of any sum. What pixels count by
- * geometry is found once for all parts. */
+/* plane_fit.c: see plane_fit.h. Loops take a run of LANES pixels at a time, with weights of zero
+ * where they go too far, and keep as many sums, so that a compiler makes vectors of them without
+ * changing the order of any sum. What pixels count by geometry is found once for all parts. */
 #include "plane_fit.h"
 #include "weights.h"
 
@@ -39,8 +39,8 @@ struct sums {
     float values[REGRESSION_MOST][3][LANES];                       /* w E, w u E, w v E */
 };
 
-/* Pixels of a run, the first of which is dx to the right of the centre and dy below it: their weights by geometry, and their
- * places in the tangent plane. */
+/* Pixels of a run, the first of which is dx to the right of the centre and dy below it: their
+ * weights by geometry, and their places in the tangent plane. */
 struct pixels {
     _Alignas(64) float w[LANES], u[LANES], v[LANES];
     size_t at; /* in a plane */
@@ -90,7 +90,8 @@ static float total(const float lanes[LANES])
     return sum;
 }
 
-/* The normal equations, by Cholesky's decomposition. The ridge pulls slopes to 0 where all pixels lie on a line. */
+/* The normal equations, by Cholesky's decomposition. The ridge pulls slopes to 0 where all pixels
+ * lie on a line. */
 static void solve(const struct regression_part *part, float moments[MOMENTS][LANES],
                   const struct sums *sums, struct regression_fit *fit)
 {

@@ -23,8 +23,8 @@ struct regression_parts {
     struct regression_part of[REGRESSION_IMAGES];
 };
 
-/* Fits planes to the values of all parts; D and 1 - cos(normal) are `slack` times as large as said. `plane`: room for one of each
- * value, which the fit borrows. */
+/* Fits planes to the values of all parts; D and 1 - cos(normal) are `slack` times as large as said.
+ * `plane`: room for one of each value, which the fit borrows. */
 void regression_make_fit(const struct regression_light *light, const struct regression_parts *parts,
                          int x, int y, float slack, float (*plane)[3], struct regression_fit *fit);
 

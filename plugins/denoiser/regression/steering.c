@@ -19,7 +19,8 @@ static float light_at(const struct regression *regression, const struct regressi
     return brightness_at(by->light, (size_t)y * regression->width + (size_t)x);
 }
 
-/* Change of the light a pixel along (dx, dy), by the pixels that far to either side that show the same surface. */
+/* Change of the light a pixel along (dx, dy), by the pixels that far to either side that show the
+ * same surface. */
 static float slope(const struct regression *regression, const struct regression_steering *by, int x,
                    int y, int dx, int dy)
 {

@@ -1,13 +1,15 @@
 /* steering.h: windows of fits that follow the edges of light.
  *
- * Light changes across the edge of a shadow, and hardly along it. A window that is narrow across and long along blurs less
- * than a round one of as many pixels (steering kernel regression, Takeda et al. 2007, "Kernel regression for image
- * processing and reconstruction"). With g the gradient of the light E that is known so far, and R the bandwidth, it is
- * an ellipse, R / sqrt(s) across and R sqrt(s) along the edge:
+ * Light changes across the edge of a shadow, and hardly along it. A window that is narrow across
+ * and long along blurs less than a round one of as many pixels (steering kernel regression, Takeda
+ * et al. 2007, "Kernel regression for image processing and reconstruction"). With g the gradient of
+ * the light E that is known so far, and R the bandwidth, it is an ellipse, R / sqrt(s) across and R
+ * sqrt(s) along the edge:
  *
  *     s = min(1 + STRENGTH R |g| / E, LONGEST)
  *
- * In gloss windows are round: what it mirrors by chance has edges of its own, which seldom are those of light.
+ * In gloss windows are round: what it mirrors by chance has edges of its own, which seldom are
+ * those of light.
  */
 #ifndef PSPLAT_DENOISER_REGRESSION_STEERING_H
 #define PSPLAT_DENOISER_REGRESSION_STEERING_H
@@ -26,8 +28,9 @@ struct regression_window regression_steered_window(const struct regression *regr
                                                    const struct regression_steering *by,
                                                    int bandwidth, int x, int y);
 
-/* Rows to either side of the middle that a window reaches, and of such a row the first and the last pixel; false: none. All that
- * are inside are among them, and they are no more than REGRESSION_MARGIN away. */
+/* Rows to either side of the middle that a window reaches, and of such a row the first and the last
+ * pixel; false: none. All that are inside are among them, and they are no more than
+ * REGRESSION_MARGIN away. */
 int regression_window_rows(const struct regression_window *window);
 bool regression_window_row(const struct regression_window *window, int y, int *first, int *last);
 

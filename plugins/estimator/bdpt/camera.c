@@ -30,8 +30,8 @@ static int is_from_camera(const struct bdpt *bdpt, const ps_ray *ray)
     return ps_same(ray->direction, camera->forward) && fabsf(depth) < bdpt->pass->surface_offset;
 }
 
-/* A shadow ray as that of a light path that gets there tells what hides the camera from the point: lights that the camera
- * does not show. */
+/* A shadow ray as that of a light path that gets there tells what hides the camera from the point:
+ * lights that the camera does not show. */
 void camera_find_sights(const struct bdpt *bdpt, uint32_t tile)
 {
     struct sight *sights = &bdpt->sights[(size_t)tile * PS_TILE_PIXELS];

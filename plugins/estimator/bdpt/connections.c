@@ -3,10 +3,12 @@
 /* Sets of PS_STREAM_PATH for Russian roulette; directions and lights take smaller ones. */
 #define ROULETTE_SETS 0x20000u
 
-/* Of the tile's mean irradiance: connections that would bring less have to pass Russian roulette. */
+/* Of the tile's mean irradiance: connections that would bring less have to pass Russian
+ * roulette. */
 #define SMALL_SHARE 0.1f
 
-/* Pairs of surfaces that face each other: of a pixel's path, or a pixel's point, and of a light path. */
+/* Pairs of surfaces that face each other: of a pixel's path, or a pixel's point, and of a light
+ * path. */
 struct pair {
     const struct subpath *eye;
     const struct vertex *light;
@@ -30,7 +32,8 @@ struct connections {
     struct side eyes, lights;
 };
 
-/* The diffuse part of what a light path's surface scatters: BSDF times cosine, with what smoothed normals change. */
+/* The diffuse part of what a light path's surface scatters: BSDF times cosine, with what smoothed
+ * normals change. */
 static ps_rgb diffuse_from_light(const struct bdpt *bdpt, const struct vertex *vertex,
                                  ps_vec3 direction)
 {
@@ -59,7 +62,8 @@ static void evaluate(const struct bdpt *bdpt, ps_direction direction, size_t n, 
     bdpt->host->evaluate_bsdf(bdpt->host, direction, rays, hits, side->to_other, n, side->values);
 }
 
-/* What the walk's surface sends on of what the light path's sends there, if nothing is in between. */
+/* What the walk's surface sends on of what the light path's sends there, if nothing is in
+ * between. */
 static ps_rgb carried_over(const struct bdpt *bdpt, const struct connections *all, size_t k)
 {
     const struct pair *pair = &all->pairs[k];
@@ -103,8 +107,8 @@ static float begin_roulette(struct connecting *work, const struct connections *a
     return numbers[0][0];
 }
 
-/* Systematic sampling: probabilities are summed from a random start on, and what makes the sum pass a whole number is
- * kept. So one random number will do, and what is kept varies less. */
+/* Systematic sampling: probabilities are summed from a random start on, and what makes the sum pass
+ * a whole number is kept. So one random number will do, and what is kept varies less. */
 static int survives(float small, float *place, ps_rgb *light)
 {
     float most = ps_rgb_maximum(*light);

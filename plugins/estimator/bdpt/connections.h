@@ -4,9 +4,10 @@
  *
  *     throughput * f(x) cos(x) * f(y) cos(y) / d^2 * power(y) * V(x, y)
  *
- * weighed against all other ways to make the same path (subpath.h). A shadow ray for each pair that face each other, in
- * batches, tells V. Where little would be brought, Russian roulette decides whether one is traced (Veach 1997, section
- * 10.3.4); what is little goes by what the tile's samples before have brought, so the mean stays.
+ * weighed against all other ways to make the same path (subpath.h). A shadow ray for each pair that
+ * face each other, in batches, tells V. Where little would be brought, Russian roulette decides
+ * whether one is traced (Veach 1997, section 10.3.4); what is little goes by what the tile's
+ * samples before have brought, so the mean stays.
  */
 #ifndef PSPLAT_ESTIMATOR_CONNECTIONS_H
 #define PSPLAT_ESTIMATOR_CONNECTIONS_H
@@ -32,8 +33,8 @@ struct connecting {
 /* What is small beside the mean of these samples. */
 float connections_small(const struct tile_sums *sums);
 
-/* Adds to the sums what the ends of the walk get. `at_points`: they are pixels' points, whose scattering does not count as
- * a bounce. */
+/* Adds to the sums what the ends of the walk get. `at_points`: they are pixels' points, whose
+ * scattering does not count as a bounce. */
 void connect_to_lights(struct connecting *work, const struct walk *walk, int at_points);
 
 #endif

@@ -127,7 +127,8 @@ static void add_direct(struct eye_work *work, uint32_t number)
 
 /* --- the paths --- */
 
-/* The pixels' points as first surfaces: white, so that pi times what they send on is their irradiance. */
+/* The pixels' points as first surfaces: white, so that pi times what they send on is their
+ * irradiance. */
 static void start_at_points(struct eye_work *work)
 {
     struct walk *walk = &work->walk;

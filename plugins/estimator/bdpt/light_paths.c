@@ -128,8 +128,8 @@ static int keep(const struct bdpt *bdpt, const struct walk *walk, struct light_v
 
 /* --- light tracing --- */
 
-/* What an end brings to the camera, if nothing is in between. A point of a pixel reflects diffusely here; what it mirrors
- * is the host's. */
+/* What an end brings to the camera, if nothing is in between. A point of a pixel reflects diffusely
+ * here; what it mirrors is the host's. */
 static int connect(const struct bdpt *bdpt, const struct walk *walk, size_t i, const float place[2],
                    struct splat *splat, ps_ray *ray)
 {

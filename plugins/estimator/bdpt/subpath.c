@@ -51,7 +51,8 @@ void bdpt_evaluate(const struct bdpt *bdpt, ps_direction direction, const ps_ray
         values[i] = bdpt_evaluate_diffuse(direction, &rays[i], &hits[i], directions[i]);
 }
 
-/* That of a surface with other lobes depends on the direction: a short ray from there meets it again. */
+/* That of a surface with other lobes depends on the direction: a short ray from there meets it
+ * again. */
 ps_rgb bdpt_albedo_towards(const struct bdpt *bdpt, const ps_hit *hit, ps_vec3 direction)
 {
     if (!(hit->flags & PS_HIT_SPECULAR))

@@ -20,7 +20,8 @@ struct work {
     struct surfels *surfels;
 };
 
-/* A surface at a surfel that sends back what it gets as radiance, so that this is its irradiance. */
+/* A surface at a surfel that sends back what it gets as radiance, so that this is its
+ * irradiance. */
 static void look_at(const struct surfels *surfels, size_t i, ps_ray *ray, ps_hit *hit)
 {
     ps_vec3 position = surfels->positions[i], normal = surfels->normals[i];

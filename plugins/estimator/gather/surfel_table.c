@@ -33,8 +33,8 @@ static uint64_t normal_key(ps_vec3 n)
     return face * 9 + row * 3 + column;
 }
 
-/* A point, in sides of the largest cubes from the table's origin (what lies out of the scene's bounds counts as at its border), and which
- * way its surface faces. */
+/* A point, in sides of the largest cubes from the table's origin (what lies out of the scene's
+ * bounds counts as at its border), and which way its surface faces. */
 struct cube_position {
     ps_vec3 point;
     uint64_t normal;
@@ -84,7 +84,8 @@ static struct surfel_cell *cell_at(const struct surfels *surfels, uint64_t key)
     return &surfels->cells[place];
 }
 
-/* How often a number above 0 must be halved until it is at most 1; by its exponent, without a branch. */
+/* How often a number above 0 must be halved until it is at most 1; by its exponent, without a
+ * branch. */
 static uint32_t halvings(float number, uint32_t most)
 {
     uint32_t bits;
@@ -100,7 +101,8 @@ static uint32_t level_of(const struct surfels *surfels, float side)
     return halvings(surfels->largest / (1.4142f * side), LEVELS - 1);
 }
 
-/* The smallest cubes that a surfel is put in: rays that are shorter than the one that found it are few there. */
+/* The smallest cubes that a surfel is put in: rays that are shorter than the one that found it are
+ * few there. */
 static uint32_t finest_level(const struct surfels *surfels, size_t i)
 {
     return level_of(surfels, 0.5f * BY_LENGTH * surfels->lengths[i]);
@@ -206,7 +208,8 @@ struct queries {
     size_t count;
 };
 
-/* Somewhere within half a cube's side of a point, along the two axes that its surface faces least. */
+/* Somewhere within half a cube's side of a point, along the two axes that its surface faces
+ * least. */
 static ps_vec3 jitter(ps_vec3 normal, const float numbers[2])
 {
     uint32_t axis = surfel_facing(normal) / 2;
@@ -232,7 +235,8 @@ static void begin_queries(const struct surfels *surfels, const struct gather_lan
     }
 }
 
-/* Looks up one cube for each open query. Those that find none look for a wider one next, if there is one. */
+/* Looks up one cube for each open query. Those that find none look for a wider one next, if there
+ * is one. */
 static void look_up(const struct surfels *surfels, struct queries *queries,
                     struct cached_irradiance *known, bool *is_known)
 {
@@ -257,7 +261,8 @@ static void look_up(const struct surfels *surfels, struct queries *queries,
     queries->count = left;
 }
 
-/* Level by level for all landings together, not landing by landing: a processor then waits for several cells of the table at a time. */
+/* Level by level for all landings together, not landing by landing: a processor then waits for
+ * several cells of the table at a time. */
 void surfel_table_lookup(const void *opaque, const struct gather_landing *landings, size_t n,
                          struct cached_irradiance *known, bool *is_known)
 {

@@ -1,9 +1,10 @@
 /* surfel_table.h: the mean light of the surfels around a point.
  *
- * A hash table holds the mean of the surfels in each cube of space, with surfaces of like normal (after Binder et al. 2019,
- * "Massively parallel path space filtering"). Cubes have a side in proportion to the length of the ray, as wide as
- * neighbouring rays are apart there, in powers of two; where one has too few surfels, the next larger ones are looked up. The
- * lookup point is jittered within a cube: steps between cubes become noise.
+ * A hash table holds the mean of the surfels in each cube of space, with surfaces of like normal
+ * (after Binder et al. 2019, "Massively parallel path space filtering"). Cubes have a side in
+ * proportion to the length of the ray, as wide as neighbouring rays are apart there, in powers of
+ * two; where one has too few surfels, the next larger ones are looked up. The lookup point is
+ * jittered within a cube: steps between cubes become noise.
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H
 #define PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H
@@ -11,7 +12,8 @@
 #include "../shared/gather_rays.h"
 #include "surfels.h"
 
-/* Makes the table, when the surfels' light is set, in place of one that is there. PS_ERROR_MEMORY: release the surfels all the same. */
+/* Makes the table, when the surfels' light is set, in place of one that is there. PS_ERROR_MEMORY:
+ * release the surfels all the same. */
 ps_result surfel_table_build(struct surfels *surfels);
 
 /* As a gather_lookup; `surfels` is a struct surfels. */

@@ -171,7 +171,8 @@ struct group {
     ps_rgb *splatted;
     const ps_rgb *traced, *half;
     size_t n;
-    /* Variance of the paths' noise, and mean square of what splats and paths differ by, over the square of the mean. */
+    /* Variance of the paths' noise, and mean square of what splats and paths differ by, over the
+     * square of the mean. */
     double noise, difference;
 };
 
@@ -187,8 +188,8 @@ static struct group group_at(const struct surfels *surfels, const ps_rgb *traced
     };
 }
 
-/* Multiplies a group's splats by the ratio of what its paths and splats find. What no splat has reached takes the mean of its
- * paths. */
+/* Multiplies a group's splats by the ratio of what its paths and splats find. What no splat has
+ * reached takes the mean of its paths. */
 static void scale_splats(const struct group *group, int c)
 {
     double by_splats = 0.0, by_paths = 0.0;
@@ -219,9 +220,10 @@ static void compare(struct group *group, int c)
     group->difference = sum > 0.0 ? difference / (sum * sum) : 0.0;
 }
 
-/* The weight of splats in the mean of both, each weighted by the other's variance: what they differ by, of which the
- * paths' noise is known. From the groups around, too: a group's own estimate of the noise depends on whether its paths happened to
- * hit a light, and weights by it alone would lose that light. */
+/* The weight of splats in the mean of both, each weighted by the other's variance: what they differ
+ * by, of which the paths' noise is known. From the groups around, too: a group's own estimate of
+ * the noise depends on whether its paths happened to hit a light, and weights by it alone would
+ * lose that light. */
 static float weight_of_splats(const struct group *groups, size_t count, size_t index)
 {
     size_t from = index > GROUPS_AROUND ? index - GROUPS_AROUND : 0;

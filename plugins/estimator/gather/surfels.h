@@ -1,8 +1,8 @@
 /* surfels.h: a cache of irradiance where gather rays land.
  *
- * Surfels are points that rays from the pixels found: so they lie where the next rays will land, as densely as
- * these will. Photons are splatted onto them, and they ask for the light of skies (skylight.h). What lies around a ray's
- * end is looked up in a table (surfel_table.h).
+ * Surfels are points that rays from the pixels found: so they lie where the next rays will land, as
+ * densely as these will. Photons are splatted onto them, and they ask for the light of skies
+ * (skylight.h). What lies around a ray's end is looked up in a table (surfel_table.h).
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_SURFELS_H
 #define PSPLAT_ESTIMATOR_GATHER_SURFELS_H
@@ -30,9 +30,10 @@ struct surfels {
     size_t capacity;
 };
 
-/* Finds surfels with so many rays from each tile of the pass, or from a random subset of the tiles if the picture is large: there are
- * at most about MOST_SURFELS. What a surfel stands for is told by the rays' lengths, so more pixels do not need more.
- * PS_ERROR_MEMORY or PS_CANCELLED: release all the same. */
+/* Finds surfels with so many rays from each tile of the pass, or from a random subset of the tiles
+ * if the picture is large: there are at most about MOST_SURFELS. What a surfel stands for is told
+ * by the rays' lengths, so more pixels do not need more. PS_ERROR_MEMORY or PS_CANCELLED: release
+ * all the same. */
 ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
                        struct surfels *surfels);
 
@@ -55,9 +56,10 @@ static inline struct surfel_group surfels_group(const struct surfels *surfels, u
     return (struct surfel_group){first, left < SURFELS_GROUP ? left : SURFELS_GROUP};
 }
 
-/* Corrects the surfels' irradiance, which is that of splats: smooth, but blotched, and a few percent too dark or too
- * bright where kernels are wide. `traced` is right on average, with noise: the irradiance by paths; `half` is that by the
- * first half of each surfel's paths, which tells the noise. PS_ERROR_MEMORY: nothing happened. */
+/* Corrects the surfels' irradiance, which is that of splats: smooth, but blotched, and a few
+ * percent too dark or too bright where kernels are wide. `traced` is right on average, with noise:
+ * the irradiance by paths; `half` is that by the first half of each surfel's paths, which tells the
+ * noise. PS_ERROR_MEMORY: nothing happened. */
 ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const ps_rgb *half);
 
 void surfels_release(struct surfels *surfels);

@@ -164,7 +164,8 @@ static bool holds(const struct cache_node *node, ps_vec3 point)
            point.y <= node->high.y && point.z >= node->low.z && point.z <= node->high.z;
 }
 
-/* The next record, in the tree's order, of the leaves whose box holds a point; NULL when there is none. */
+/* The next record, in the tree's order, of the leaves whose box holds a point; NULL when there is
+ * none. */
 static struct record *next_record(const struct irradiance_cache *cache, ps_vec3 point,
                                   struct place *place)
 {

@@ -9,7 +9,8 @@ struct edge_derivatives {
     float x, y, xx, xy, yy;
 };
 
-/* Integrals over the angle phi from the foot of the perpendicular on the edge's line, between both ends. */
+/* Integrals over the angle phi from the foot of the perpendicular on the edge's line, between both
+ * ends. */
 struct angle_integrals {
     float cos2, sin_cos;             /* of cos^2, sin cos */
     float cos4, sin_cos3, sin2_cos2; /* of cos^4, sin cos^3, sin^2 cos^2 */
@@ -31,13 +32,13 @@ static struct angle_integrals integrate(float angle, float sin_a, float cos_a, f
     };
 }
 
-/* With r(t) = r1 + t e, e = r2 - r1, theta / |c| is the integral of 1 / |r|^2 over t in [0, 1], and n.c changes by n x e.
- * Its derivatives are integrals of
+/* With r(t) = r1 + t e, e = r2 - r1, theta / |c| is the integral of 1 / |r|^2 over t in [0, 1], and
+ * n.c changes by n x e. Its derivatives are integrals of
  *
  *     2 r / |r|^4     and     8 r r^T / |r|^6 - 2 / |r|^4
  *
- * which, with r = h (a + tan(phi) b) and a, b the directions to the foot and along the edge, become those of
- * angle_integrals. */
+ * which, with r = h (a + tan(phi) b) and a, b the directions to the foot and along the edge, become
+ * those of angle_integrals. */
 static int differentiate_edge(ps_vec3 r1, ps_vec3 r2, struct edge_derivatives *edge)
 {
     ps_vec3 e = ps_subtract(r2, r1), c = ps_cross(r1, r2);
@@ -84,8 +85,8 @@ static ps_rgb radiance_of(const struct hemisphere *hemisphere, size_t a, size_t 
     return hemisphere->radiance[da >= db ? (da >= dc ? a : c) : (db >= dc ? b : c)];
 }
 
-/* Between rings j and j + 1 and sectors k and k + 1 there are two triangles: one with the edge on the inner ring, one with
- * that on the outer ring. */
+/* Between rings j and j + 1 and sectors k and k + 1 there are two triangles: one with the edge on
+ * the inner ring, one with that on the outer ring. */
 static ps_rgb inner_triangle(const struct hemisphere *hemisphere, uint32_t j, uint32_t k)
 {
     return radiance_of(hemisphere, vertex_of(hemisphere, j, k), vertex_of(hemisphere, j + 1, k),

@@ -122,8 +122,9 @@ static void trace_rays(const struct record_setting *setting, const struct record
 
 /* --- what they tell --- */
 
-/* E = pi / n * sum of L, and by the rotational gradient of Ward and Heckbert 1992 a change d of the normal adds
- * pi / n * sum of L d.w / cos(theta). Of each stratum the cosine in its middle divides, which is never 0. */
+/* E = pi / n * sum of L, and by the rotational gradient of Ward and Heckbert 1992 a change d of the
+ * normal adds pi / n * sum of L d.w / cos(theta). Of each stratum the cosine in its middle divides,
+ * which is never 0. */
 static void sum_irradiance(const struct record_setting *setting, const struct record_room *room,
                            struct record *record)
 {
@@ -161,9 +162,9 @@ static ps_rgb limit(ps_rgb gradient, float most)
     return length > most ? ps_rgb_scale(gradient, most / length) : gradient;
 }
 
-/* Axes are those of the matrix of second derivatives, and radii by its eigenvalues c: of an error c r^2 / 2 at distance r
- * the sum over the picture is least, for a given number of records, where r^4 is in proportion to E / c and to the square
- * of a pixel's footprint. */
+/* Axes are those of the matrix of second derivatives, and radii by its eigenvalues c: of an error c
+ * r^2 / 2 at distance r the sum over the picture is least, for a given number of records, where r^4
+ * is in proportion to E / c and to the square of a pixel's footprint. */
 static void set_axes(const struct record_setting *setting, const struct hemisphere_derivatives *of,
                      struct record *record)
 {
@@ -185,8 +186,8 @@ static void set_axes(const struct record_setting *setting, const struct hemisphe
     }
 }
 
-/* Towards a crease irradiance changes ever faster, which no second derivative tells: records end near what stands on their
- * own surface. */
+/* Towards a crease irradiance changes ever faster, which no second derivative tells: records end
+ * near what stands on their own surface. */
 static void end_before_walls(const struct record_setting *setting, const struct record_room *room,
                              struct record *record)
 {

@@ -11,7 +11,8 @@ struct record {
     /* Given by the caller. */
     ps_vec3 position, normal;
     float footprint; /* size of a pixel there */
-    /* What record_make() finds. Axes lie in the plane of the surface: those of the second derivatives of irradiance. */
+    /* What record_make() finds. Axes lie in the plane of the surface: those of the second
+     * derivatives of irradiance. */
     ps_vec3 axes[2];
     float radii[2];       /* how far along them the record reaches */
     ps_rgb irradiance;    /* W/m^2 */
@@ -24,7 +25,8 @@ struct record_setting {
     struct paths_setting paths;
     uint32_t rings, sectors; /* of the strata of its rays */
     float unit; /* of length, about as large as the scene, by which hits are measured */
-    /* Radii, in pixels; where irradiance E has the second derivative c, the square is scale * sqrt(E / c). */
+    /* Radii, in pixels; where irradiance E has the second derivative c, the square is scale *
+     * sqrt(E / c). */
     float scale, least, most;
 };
 
@@ -38,7 +40,8 @@ struct record_room {
 struct record_room *record_rooms_create(const struct record_setting *setting);
 void record_rooms_release(const ps_host *host, struct record_room *rooms);
 
-/* Makes a record whose place is given; its rays draw the random numbers from `first_sample` on. Any thread. */
+/* Makes a record whose place is given; its rays draw the random numbers from `first_sample` on. Any
+ * thread. */
 void record_make(const struct record_setting *setting, const struct record_room *room,
                  uint64_t first_sample, struct record *record);
 

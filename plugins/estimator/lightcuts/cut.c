@@ -45,7 +45,8 @@ struct receiver {
     ps_vec3 position, normal; /* just above its surface */
 };
 
-/* What a light gives a receiver if nothing is in between, a unit of power; sets the ray that tells. */
+/* What a light gives a receiver if nothing is in between, a unit of power; sets the ray that
+ * tells. */
 static float connect(const struct cut_setting *setting, const ps_photon *light,
                      const struct receiver *receiver, ps_ray *ray)
 {
@@ -77,7 +78,8 @@ static ps_rgb light_of(const struct cut_setting *setting, const struct cut_entry
 
 /* --- steps --- */
 
-/* Clusters with new representatives, one for each of some of a tile's points, and what these give. */
+/* Clusters with new representatives, one for each of some of a tile's points, and what these
+ * give. */
 struct step {
     size_t count; /* of rays */
     uint32_t targets[PS_TILE_PIXELS];
@@ -121,7 +123,8 @@ static uint32_t new_child(const struct light_tree *tree, uint32_t place)
     return is_left ? cluster->right : place + 1;
 }
 
-/* Replaces the cluster with the largest bound by its children, of which `child` has a transfer of its own. */
+/* Replaces the cluster with the largest bound by its children, of which `child` has a transfer of
+ * its own. */
 static void refine(const struct cut_setting *setting, const struct receiver *receiver,
                    uint32_t child, float transfer, struct cut *cut)
 {

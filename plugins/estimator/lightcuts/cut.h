@@ -1,9 +1,10 @@
 /* cut.h: lights the pixels of a tile by cuts through a tree of virtual lights.
  *
- * Walter et al. 2005. A cut is a set of clusters that holds each light once. It begins at the root. The cluster whose
- * error could be largest, that is, the bound on its light, is replaced by its children, until no error can exceed a share
- * of the light found, or the cut has as many clusters as it may. Light and bounds are luminances.
- * One of the children has the parent's representative, and costs no shadow ray.
+ * Walter et al. 2005. A cut is a set of clusters that holds each light once. It begins at the root.
+ * The cluster whose error could be largest, that is, the bound on its light, is replaced by its
+ * children, until no error can exceed a share of the light found, or the cut has as many clusters
+ * as it may. Light and bounds are luminances. One of the children has the parent's representative,
+ * and costs no shadow ray.
  *
  * All pixels of a tile take a step together, so that shadow rays go to the tracer in packets.
  */
@@ -23,14 +24,14 @@ struct cut_setting {
 
 /* A cluster of a cut. */
 struct cut_entry {
-    float
-        bound; /* on its light, as a luminance of irradiance; 0: a single light, or none that gets here */
+    /* On its light, as a luminance of irradiance; 0: a single light, or none that gets here. */
+    float bound;
     uint32_t cluster;
     float transfer; /* irradiance of its representative, a unit of power */
 };
 
-/* `room`: PS_TILE_PIXELS * setting->most entries. Sets the irradiance (W/m^2) of each point; returns how many clusters
- * their cuts have together. Any thread. */
+/* `room`: PS_TILE_PIXELS * setting->most entries. Sets the irradiance (W/m^2) of each point;
+ * returns how many clusters their cuts have together. Any thread. */
 uint64_t cut_light_points(const struct cut_setting *setting, const ps_points *points,
                           struct cut_entry *room, ps_rgb *irradiance);
 

@@ -3,7 +3,8 @@
 #include <stdbool.h>
 
 #define DIMENSIONS 6
-/* What a unit of direction counts as, in radii of the scene: as much as half of the scene between opposite walls. */
+/* What a unit of direction counts as, in radii of the scene: as much as half of the scene between
+ * opposite walls. */
 #define DIRECTION_SCALE 0.5f
 
 /* --- building --- */
@@ -98,8 +99,9 @@ static void find_extent(const struct building *building, const uint32_t *order, 
             ps_min(cluster->cosine, ps_dot(cluster->axis, lights->lights[order[i]].normal));
 }
 
-/* The representative of one of the children, by their power. The numbers of a cluster and of its children are from different
- * sets: those of one set are stratified, which would tie the two draws to each other. */
+/* The representative of one of the children, by their power. The numbers of a cluster and of its
+ * children are from different sets: those of one set are stratified, which would tie the two draws
+ * to each other. */
 static void find_representative(const struct building *building, size_t place, uint32_t depth)
 {
     struct light_cluster *clusters = building->tree->clusters, *cluster = &clusters[place];
@@ -165,7 +167,8 @@ void light_tree_release(struct light_tree *tree)
 
 /* --- bounds --- */
 
-/* The cosine of an angle that is smaller by another one, given both cosines; 1 where nothing is left of it. */
+/* The cosine of an angle that is smaller by another one, given both cosines; 1 where nothing is
+ * left of it. */
 static float reduce_angle(float cosine, float by)
 {
     if (cosine >= by)

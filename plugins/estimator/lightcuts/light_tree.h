@@ -1,10 +1,11 @@
 /* light_tree.h: virtual lights in a binary tree of clusters, each with a light that represents it.
  *
- * Walter et al. 2005, "Lightcuts: a scalable approach to illumination". A cluster shines as its representative does, with
- * the power of all its lights. The representative is drawn in proportion to power (luminance), and is that of one of the
- * two children, so the mean luminance over draws is that of all lights; colours that differ within a cluster are averaged.
- * The paper merges clusters pair by pair, those that are close and face alike first; here they are split at the median of
- * the widest of six dimensions, three of position and three of direction, which takes n log(n) steps.
+ * Walter et al. 2005, "Lightcuts: a scalable approach to illumination". A cluster shines as its
+ * representative does, with the power of all its lights. The representative is drawn in proportion
+ * to power (luminance), and is that of one of the two children, so the mean luminance over draws is
+ * that of all lights; colours that differ within a cluster are averaged. The paper merges clusters
+ * pair by pair, those that are close and face alike first; here they are split at the median of the
+ * widest of six dimensions, three of position and three of direction, which takes n log(n) steps.
  */
 #ifndef PSPLAT_ESTIMATOR_LIGHT_TREE_H
 #define PSPLAT_ESTIMATOR_LIGHT_TREE_H

@@ -1,9 +1,10 @@
 /* cascades.h: grids inside of each other, each half as wide as the next, all of as many cells.
  *
- * Kaplanyan and Dachsbacher 2010. Light that comes from far away may be coarse, light of what is near may not. Each photon is
- * injected into all grids that hold it. A point takes the light of sources in its finest grid from that grid, and from each
- * coarser grid the light of those sources alone that no finer grid holds; so each grid but the finest keeps the two apart.
- * Towards the border of a grid its light fades into what the next one knows of the same sources.
+ * Kaplanyan and Dachsbacher 2010. Light that comes from far away may be coarse, light of what is
+ * near may not. Each photon is injected into all grids that hold it. A point takes the light of
+ * sources in its finest grid from that grid, and from each coarser grid the light of those sources
+ * alone that no finer grid holds; so each grid but the finest keeps the two apart. Towards the
+ * border of a grid its light fades into what the next one knows of the same sources.
  */
 #ifndef PSPLAT_LPV_CASCADES_H
 #define PSPLAT_LPV_CASCADES_H

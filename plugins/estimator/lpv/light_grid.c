@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-/* Solid angles of the faces of the cell beside, from a cell's middle: the one across, and four along. */
+/* Solid angles of the faces of the cell beside, from a cell's middle: the one across, and four
+ * along. */
 #define FRONT_ANGLE 0.40066968f
 #define SIDE_ANGLE 0.42344135f
 
@@ -52,7 +53,8 @@ void light_grid_inject(struct light_grid *light, ps_vec3 position, ps_vec3 axis,
                           ps_rgb_scale(power, 1.0f / PS_PI), &lobe);
 }
 
-/* --- one step ------------------------------------------------------------------------------------------------ */
+/* --- one step
+ * ---------------------------------------------------------------------------------------------- */
 
 /* The cell beside, along an axis one way or the other. */
 struct neighbour {
@@ -60,8 +62,8 @@ struct neighbour {
     float sign;
 };
 
-/* Flux through the five faces of a neighbour that are seen from the middle of a cell: the front, then two along each of the
- * two other axes, first against it. */
+/* Flux through the five faces of a neighbour that are seen from the middle of a cell: the front,
+ * then two along each of the two other axes, first against it. */
 static void find_fluxes(const struct sh *light, const struct neighbour *beside, float fluxes[5])
 {
     const float slant = 0.89442719f; /* 1 / sqrt(1 + 1/4) */
@@ -104,7 +106,8 @@ static void find_allocation(void *user, uint64_t slice, uint32_t worker)
     }
 }
 
-/* Adds what comes from a cell through the face between, of one channel. `beside`: the way that the light goes. */
+/* Adds what comes from a cell through the face between, of one channel. `beside`: the way that the
+ * light goes. */
 static void receive(const struct sh *from, const struct neighbour *beside, float share,
                     struct sh *sum)
 {
@@ -190,7 +193,8 @@ ps_result light_grid_propagate(struct light_grid *light, const struct blockers *
     return PS_OK;
 }
 
-/* --- the field ------------------------------------------------------------------------------------------------ */
+/* --- the field
+ * ---------------------------------------------------------------------------------------------- */
 
 /* Where a point looks into a grid: the eight cells around, of which it takes some. */
 struct light_lookup {
@@ -232,7 +236,8 @@ static void find_cells(const struct voxel_grid *grid, ps_vec3 position, ps_vec3 
     }
 }
 
-/* I is the light of a whole cell; light that passes it, over a way of MEAN_CHORD cells, is radiance I chord / side^2. */
+/* I is the light of a whole cell; light that passes it, over a way of MEAN_CHORD cells, is radiance
+ * I chord / side^2. */
 ps_rgb light_grid_irradiance(const struct light_grid *light, ps_vec3 position, ps_vec3 normal)
 {
     struct light_lookup lookup;

@@ -11,7 +11,8 @@ struct array {
     size_t count, capacity;
 };
 
-/* Makes room for `more` items of `size` bytes; false, and the array as it was, where there is no memory. */
+/* Makes room for `more` items of `size` bytes; false, and the array as it was, where there is no
+ * memory. */
 static inline bool array_reserve(const ps_host *host, struct array *array, size_t more, size_t size,
                                  const char *what)
 {

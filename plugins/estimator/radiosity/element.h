@@ -1,13 +1,15 @@
 /* element.h: the hierarchy of surfaces between which light is exchanged.
  *
- * Hanrahan, Salzman and Aupperle 1991 divide each polygon, here each triangle, into four by the middles of its edges, where
- * and as often as the exchange needs it. Smits, Arvo and Greenberg 1994 put a hierarchy of clusters on top of the polygons,
- * so that n of them do not have to be looked at in n^2 pairs. Here both are one tree of elements: its root is the scene, a
- * cluster has two children, which lie close together or face alike, a triangle none or four. As surfaces reflect on both
- * sides, each triangle of the scene is there twice: its front, and its back, wound the other way.
+ * Hanrahan, Salzman and Aupperle 1991 divide each polygon, here each triangle, into four by the
+ * middles of its edges, where and as often as the exchange needs it. Smits, Arvo and Greenberg 1994
+ * put a hierarchy of clusters on top of the polygons, so that n of them do not have to be looked at
+ * in n^2 pairs. Here both are one tree of elements: its root is the scene, a cluster has two
+ * children, which lie close together or face alike, a triangle none or four. As surfaces reflect on
+ * both sides, each triangle of the scene is there twice: its front, and its back, wound the other
+ * way.
  *
- * Lengths are in radii of the scene, and the scene's centre is the origin: areas and their products stay numbers whatever
- * the scene's size is. Children have larger indices than their parent.
+ * Lengths are in radii of the scene, and the scene's centre is the origin: areas and their products
+ * stay numbers whatever the scene's size is. Children have larger indices than their parent.
  */
 #ifndef PSPLAT_ESTIMATOR_RADIOSITY_ELEMENT_H
 #define PSPLAT_ESTIMATOR_RADIOSITY_ELEMENT_H
@@ -17,8 +19,9 @@
 #define ELEMENT_NONE UINT32_MAX
 
 struct element {
-    ps_vec3 corners
-        [3]; /* of a triangle, counter-clockwise; of a cluster, the least and the largest corner of its box */
+    /* Of a triangle, counter-clockwise; of a cluster, the least and the largest corner of its
+     * box. */
+    ps_vec3 corners[3];
     ps_vec3 centre;
     float radius; /* around the centre */
     ps_vec3 normal;
@@ -51,8 +54,8 @@ struct elements {
     struct array tree; /* of struct element; the root is the first */
     struct side *sides;
     size_t side_count;
-    double
-        power; /* of the lights, W, the sum of the channels, where all of it lands in the scene; else 0 */
+    /* Of the lights, W, the sum of the channels, where all of it lands in the scene; else 0. */
+    double power;
 };
 
 static inline struct element *elements_at(const struct elements *elements, size_t index)
@@ -76,24 +79,26 @@ static inline ps_vec3 elements_position(const struct elements *elements, ps_vec3
     return ps_add_scaled(elements->origin, elements->unit, place);
 }
 
-/* Builds the tree over the scene's triangles; none where there are none. PS_ERROR_MEMORY; either way released by
- * elements_release. */
+/* Builds the tree over the scene's triangles; none where there are none. PS_ERROR_MEMORY; either
+ * way released by elements_release. */
 ps_result elements_create(const ps_host *host, const ps_pass *pass, struct elements *elements);
 void elements_release(struct elements *elements);
 
 /* Centre and radius of a triangle, by its corners. */
 void element_measure(struct element *element);
 
-/* Divides a triangle without children into four. false: no memory. Pointers to elements are void from then on. */
+/* Divides a triangle without children into four. false: no memory. Pointers to elements are void
+ * from then on. */
 bool elements_divide(struct elements *elements, uint32_t index);
 
-/* The undivided triangle at a place of an object's surface, whose front looks along `normal`; ELEMENT_NONE where the
- * object has none that does. `guess`: an element of a triangle that it may be, which is tried first, or ELEMENT_NONE. */
+/* The undivided triangle at a place of an object's surface, whose front looks along `normal`;
+ * ELEMENT_NONE where the object has none that does. `guess`: an element of a triangle that it may
+ * be, which is tried first, or ELEMENT_NONE. */
 uint32_t elements_find(const struct elements *elements, ps_vec3 place, ps_vec3 normal,
                        uint32_t object, uint32_t guess);
 
-/* A point of the element, uniform over its area, and the undivided triangle that it lies on, from two numbers of [0, 1).
- * `weights`: of that triangle's second and third corner. */
+/* A point of the element, uniform over its area, and the undivided triangle that it lies on, from
+ * two numbers of [0, 1). `weights`: of that triangle's second and third corner. */
 uint32_t elements_sample(const struct elements *elements, uint32_t index, const float numbers[2],
                          float weights[2]);
 

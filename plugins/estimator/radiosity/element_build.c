@@ -128,7 +128,8 @@ static void measure_slack(void *user, uint64_t index, uint32_t worker)
             ps_length(ps_subtract(elements_place(elements, ray.origin), place)) - elements->offset;
         element->slack = ps_max(element->slack, distance);
     }
-    /* A sphere is farthest from the middle of the circle around a triangle. Of meshes it is rounding. */
+    /* A sphere is farthest from the middle of the circle around a triangle. Of meshes it is
+     * rounding. */
     element->slack = element->slack > 1e-3f * element->radius ? 1.25f * element->slack : 0.0f;
 }
 
@@ -139,7 +140,8 @@ static struct element no_element(uint32_t parent)
     return (struct element){.parent = parent, .side = ELEMENT_NONE};
 }
 
-/* Parts points[first, end) at the mean of the coordinate that they differ most in; returns where. */
+/* Parts points[first, end) at the mean of the coordinate that they differ most in; returns
+ * where. */
 static size_t part(struct point *points, size_t first, size_t end)
 {
     assert(points && first < end);

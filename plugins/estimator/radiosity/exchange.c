@@ -69,8 +69,8 @@ static float frac(float x)
     return x - floorf(x);
 }
 
-/* Numbers of [0, 1) that are stratified over the pairs, other ones for each link: R2 sequence (Roberts 2018), and its like
- * in four dimensions. */
+/* Numbers of [0, 1) that are stratified over the pairs, other ones for each link: R2 sequence
+ * (Roberts 2018), and its like in four dimensions. */
 static void pair_numbers(uint32_t p, uint32_t q, uint32_t pair, float numbers[2][2])
 {
     static const float steps[4] = {0.8566749f, 0.7338919f, 0.6287067f, 0.5385973f};
@@ -107,7 +107,8 @@ struct exchange exchange_without_shadows(const struct elements *elements, uint32
     float smaller = ps_min(a->area, b->area), larger = ps_max(a->area, b->area);
     struct exchange exchange = {.visible = 1.0f};
     if (element_is_cluster(a) || element_is_cluster(b)) {
-        /* Their points are looked at with the shadows; the bound is that of surfaces that face each other. */
+        /* Their points are looked at with the shadows; the bound is that of surfaces that face each
+         * other. */
         float nearest = distance - reach, square = PS_PI * nearest * nearest;
         exchange.most = nearest > 0.0f && larger < square ? smaller * (larger / square) : smaller;
         return exchange;

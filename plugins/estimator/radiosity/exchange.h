@@ -1,4 +1,5 @@
-/* exchange.h: how much light two elements exchange: their form factor times area, shadows included; see links.h.
+/* exchange.h: how much light two elements exchange: their form factor times area, shadows included;
+ * see links.h.
  *
  * Areas are in squares of the scene's radius. All functions: any thread.
  */

@@ -2,7 +2,8 @@
 
 #include <stddef.h>
 
-/* Cuts off what lies below the horizon (Sutherland and Hodgman 1974); of three corners at most four are left. */
+/* Cuts off what lies below the horizon (Sutherland and Hodgman 1974); of three corners at most four
+ * are left. */
 static size_t cut_at_horizon(ps_vec3 n, const ps_vec3 corners[3], ps_vec3 cut[4])
 {
     size_t count = 0;

@@ -63,7 +63,8 @@ static void find_again(void *user, uint64_t index, uint32_t worker)
                                          landing->object, landing->element);
 }
 
-/* Divides each triangle that more than MOST_PATHS landed in; `counts` are those of all elements, 0. */
+/* Divides each triangle that more than MOST_PATHS landed in; `counts` are those of all elements,
+ * 0. */
 static ps_result divide_crowded(struct landings *landings, size_t *divided)
 {
     struct elements *elements = landings->elements;

@@ -4,8 +4,8 @@
 
 #include "element.h"
 
-/* Divides triangles until few light paths land in each, and finds the power of the lights where all paths land.
- * PS_ERROR_MEMORY or PS_CANCELLED. */
+/* Divides triangles until few light paths land in each, and finds the power of the lights where all
+ * paths land. PS_ERROR_MEMORY or PS_CANCELLED. */
 ps_result landings_divide(struct elements *elements);
 
 #endif

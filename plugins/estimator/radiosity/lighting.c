@@ -172,7 +172,8 @@ void lighting_pull(struct elements *elements)
     }
 }
 
-/* Lights all, and divides elements, and their parts, whose quarters differ by more than a part of the scene's light. */
+/* Lights all, and divides elements, and their parts, whose quarters differ by more than a part of
+ * the scene's light. */
 static ps_result divide_uneven(struct elements *elements, double epsilon)
 {
     const ps_host *host = elements->host;

@@ -72,7 +72,8 @@ static float cluster_form_factor(const struct receiver *receiver, const struct e
 
 /* --- shadows --- */
 
-/* A point of a candidate: the triangle, undivided, that it lies on, and the candidate's form factor by it alone. */
+/* A point of a candidate: the triangle, undivided, that it lies on, and the candidate's form factor
+ * by it alone. */
 struct target {
     uint32_t triangle;
     ps_vec3 place;
@@ -145,7 +146,8 @@ static size_t choose(const struct candidate *candidates, size_t count, float sum
     return low;
 }
 
-/* Of candidates, of which some are drawn; the first of the samples of this pixel, and how many of them. */
+/* Of candidates, of which some are drawn; the first of the samples of this pixel, and how many of
+ * them. */
 static ps_rgb light_of_batch(const struct work *work, const struct receiver *receiver,
                              const struct candidate *candidates, size_t count, uint64_t first,
                              size_t n)

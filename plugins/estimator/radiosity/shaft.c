@@ -46,7 +46,8 @@ static void add_plane(struct shaft *shaft, ps_vec3 normal, float distance)
     shaft->planes[shaft->count++] = (struct plane){normal, distance};
 }
 
-/* The planes through a corner of each box that are parallel to the third axis; `high`: which corner. */
+/* The planes through a corner of each box that are parallel to the third axis; `high`: which
+ * corner. */
 static void add_slanted(struct shaft *shaft, ps_vec3 boxes[2][2], int a, int b, const int high[2])
 {
     float sign_a = high[0] ? 1.0f : -1.0f, sign_b = high[1] ? 1.0f : -1.0f;

@@ -90,7 +90,8 @@ static void find_targets(const struct solving *work, float *targets)
     }
 }
 
-/* s_i (F s)_i = target_i: each round takes the geometric mean of s and what would give the target. */
+/* s_i (F s)_i = target_i: each round takes the geometric mean of s and what would give the
+ * target. */
 static ps_result balance(const struct solving *work)
 {
     const struct elements *elements = &work->solution->elements;
@@ -188,8 +189,8 @@ static void measure_balance(struct solution *solution)
     }
 }
 
-/* As long as nothing is known of indirect light, an even estimate takes its place, as Cohen et al. 1988 add to pictures
- * of unfinished solutions. */
+/* As long as nothing is known of indirect light, an even estimate takes its place, as Cohen et al.
+ * 1988 add to pictures of unfinished solutions. */
 static void guess_ambient(struct elements *elements, uint32_t bounces)
 {
     const struct element *scene = elements_at(elements, 0);

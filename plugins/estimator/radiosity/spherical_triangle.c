@@ -15,7 +15,8 @@ static float angle_at(ps_vec3 a, ps_vec3 b, ps_vec3 c)
     return atan2f(ps_length(ps_cross(to_b, to_c)), ps_dot(to_b, to_c));
 }
 
-/* Van Oosterom and Strackee 1983: without the difference of the sum of the angles and pi, which small ones lose. */
+/* Van Oosterom and Strackee 1983: without the difference of the sum of the angles and pi, which
+ * small ones lose. */
 static float solid_angle(ps_vec3 a, ps_vec3 b, ps_vec3 c)
 {
     float volume = fabsf(ps_dot(a, ps_cross(b, c)));

@@ -1,8 +1,9 @@
 /* spherical_triangle.h: directions even over the solid angle of a triangle.
  *
- * Arvo 1995, Stratified sampling of spherical triangles: an area of the triangle is cut off by an arc through one corner,
- * and a point of that arc chosen. Unlike points that are even over the triangle itself, directions have no density without
- * bounds where the triangle begins at the eye's own surface.
+ * Arvo 1995, Stratified sampling of spherical triangles: an area of the triangle is cut off by an
+ * arc through one corner, and a point of that arc chosen. Unlike points that are even over the
+ * triangle itself, directions have no density without bounds where the triangle begins at the eye's
+ * own surface.
  */
 #ifndef PSPLAT_ESTIMATOR_RADIOSITY_SPHERICAL_TRIANGLE_H
 #define PSPLAT_ESTIMATOR_RADIOSITY_SPHERICAL_TRIANGLE_H

@@ -12,7 +12,8 @@ static uint32_t block_of(uint32_t lane)
     return lane / PS_TILE_SIZE / BLOCK * (PS_TILE_SIZE / BLOCK) + lane % PS_TILE_SIZE / BLOCK;
 }
 
-/* Variance of the means of blocks, each of which counts by its points, less that of the noise in them. */
+/* Variance of the means of blocks, each of which counts by its points, less that of the noise in
+ * them. */
 static float variation_of(const float sums[BLOCKS], const uint32_t counts[BLOCKS], float mean,
                           float noise, size_t points)
 {

@@ -1,11 +1,13 @@
-/* allocation.h: how the samples of a pass are shared out among tiles (adaptive sampling, Zwicker et al. 2015, "Recent
- * advances in adaptive sampling and reconstruction").
+/* allocation.h: how the samples of a pass are shared out among tiles (adaptive sampling, Zwicker et
+ * al. 2015, "Recent advances in adaptive sampling and reconstruction").
  *
- * After a first round of samples, all tiles alike, the error that each tile will have after denoising is estimated. With noise of
- * variance s^2 and light of second derivative c, a fit of bandwidth h has the variance s^2 / h^2 and the bias c h^2; at the best
- * h its error is in proportion to (s^2 c)^(1/3). For c the standard deviation of the means of 4x4 blocks is used. The error is
- * divided by the square root of the brightness, a compromise between the absolute error, by which dark walls would stay noisy, and the
- * relative one. The other samples go where that is large.
+ * After a first round of samples, all tiles alike, the error that each tile will have after
+ * denoising is estimated. With noise of variance s^2 and light of second derivative c, a fit of
+ * bandwidth h has the variance s^2 / h^2 and the bias c h^2; at the best h its error is in
+ * proportion to (s^2 c)^(1/3). For c the standard deviation of the means of 4x4 blocks is used. The
+ * error is divided by the square root of the brightness, a compromise between the absolute error,
+ * by which dark walls would stay noisy, and the relative one. The other samples go where that is
+ * large.
  */
 #ifndef PSPLAT_ESTIMATOR_ALLOCATION_H
 #define PSPLAT_ESTIMATOR_ALLOCATION_H
@@ -22,8 +24,8 @@ struct tile_pilot {
     float error;      /* for allocation_for() */
 };
 
-/* `found`: what the first round found at each of `count` lanes, and `half` what the first half of it did, both of the
- * brightness above. */
+/* `found`: what the first round found at each of `count` lanes, and `half` what the first half of
+ * it did, both of the brightness above. */
 struct tile_pilot tile_pilot(const uint32_t *lanes, const float *found, const float *half,
                              size_t count);
 

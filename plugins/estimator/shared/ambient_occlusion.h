@@ -1,9 +1,11 @@
-/* ambient_occlusion.h: ambient light, less by what the picture shows near each point: the estimators in screen space.
+/* ambient_occlusion.h: ambient light, less by what the picture shows near each point: the
+ * estimators in screen space.
  *
  *     E(p) = irradiance * A(p)          W/m^2
  *
- * A, the visibility in 0..1, is the estimator's own. Where nothing is near it is 1, and the picture that of the estimator
- * `ambient`. No ray is traced: what the picture does not show does not occlude.
+ * A, the visibility in 0..1, is the estimator's own. Where nothing is near it is 1, and the picture
+ * that of the estimator `ambient`. No ray is traced: what the picture does not show does not
+ * occlude.
  */
 #ifndef PSPLAT_ESTIMATOR_AMBIENT_OCCLUSION_H
 #define PSPLAT_ESTIMATOR_AMBIENT_OCCLUSION_H
@@ -37,12 +39,13 @@ struct screen_point {
     float depth;
 };
 
-/* What lies at a place in the picture, in pixels; 0 outside of it, and where a pixel sees nothing. Any thread. */
+/* What lies at a place in the picture, in pixels; 0 outside of it, and where a pixel sees nothing.
+ * Any thread. */
 int screen_look(const struct screen *screen, float x, float y, struct screen_point *point);
 
-/* What a length at a point covers of the picture, in pixels; 0 if the pixel has no neighbour. The camera is not asked: of
- * the offset to a neighbour's point, the part along the view is the difference in depth, the rest is a pixel's width. Any
- * thread. */
+/* What a length at a point covers of the picture, in pixels; 0 if the pixel has no neighbour. The
+ * camera is not asked: of the offset to a neighbour's point, the part along the view is the
+ * difference in depth, the rest is a pixel's width. Any thread. */
 float screen_extent(const struct screen *screen, const struct screen_point *point, uint32_t x,
                     uint32_t y, float length);
 

@@ -1,5 +1,6 @@
-/* caustics.h: light that comes from lamps by mirrors, glass and gloss alone, which changes too fast for what estimators
- * interpolate: its photons are splatted onto the pixels, by the visibility and filter chosen. */
+/* caustics.h: light that comes from lamps by mirrors, glass and gloss alone, which changes too fast
+ * for what estimators interpolate: its photons are splatted onto the pixels, by the visibility and
+ * filter chosen. */
 #ifndef PSPLAT_ESTIMATOR_CAUSTICS_H
 #define PSPLAT_ESTIMATOR_CAUSTICS_H
 

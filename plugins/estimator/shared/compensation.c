@@ -10,8 +10,8 @@ static void weigh_hits(float clamp, struct paths *paths, const struct paths_segm
     }
 }
 
-/* One ray from each point, which becomes a path at a surface close by. That surface reflects diffusely alone, as virtual
- * lights shine: no caustics from it, and no lobe but PS_DIFFUSE. */
+/* One ray from each point, which becomes a path at a surface close by. That surface reflects
+ * diffusely alone, as virtual lights shine: no caustics from it, and no lobe but PS_DIFFUSE. */
 static void trace_sample(const void *user, const ps_points *points, const uint64_t *samples,
                          ps_rgb *sums)
 {

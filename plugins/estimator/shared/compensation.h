@@ -1,13 +1,15 @@
 /* compensation.h: the light that clamped virtual point lights leave out.
  *
- * Kollig and Keller 2006, "Illumination in the presence of weak singularities". A light at distance d below the clamp c
- * gives d^2 / c^2 of its light. The rest is an integral over the surfaces y within c of the point x, along rays w:
+ * Kollig and Keller 2006, "Illumination in the presence of weak singularities". A light at distance
+ * d below the clamp c gives d^2 / c^2 of its light. The rest is an integral over the surfaces y
+ * within c of the point x, along rays w:
  *
  *     E(x) - E_clamped(x) = integral of L(y(x, w)) max(0, 1 - d^2 / c^2) cos(theta) dw
  *
- * L is the radiance that y reflects diffusely. Rays are drawn by cos(theta) / pi; few meet anything as close, so they cost
- * little. Kollig and Keller find L by all virtual lights again, clamped, and so on recursively; here the rest of the path is traced,
- * which has the same mean, and costs a few rays instead of one for each light.
+ * L is the radiance that y reflects diffusely. Rays are drawn by cos(theta) / pi; few meet anything
+ * as close, so they cost little. Kollig and Keller find L by all virtual lights again, clamped, and
+ * so on recursively; here the rest of the path is traced, which has the same mean, and costs a few
+ * rays instead of one for each light.
  */
 #ifndef PSPLAT_ESTIMATOR_COMPENSATION_H
 #define PSPLAT_ESTIMATOR_COMPENSATION_H

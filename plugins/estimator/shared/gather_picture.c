@@ -9,7 +9,8 @@
 struct work {
     const struct gather_setting *setting;
     const struct gather_allocation *allocation; /* NULL: all tiles take as many samples */
-    /* What the first round found in each tile that is there and in those around, by `slots`, of all tiles of the picture. */
+    /* What the first round found in each tile that is there and in those around, by `slots`, of all
+     * tiles of the picture. */
     struct gather_first *first_rounds;
     struct tile_pilot
         *pilots; /* of the picture's tiles; of those that were not looked at, without points */
@@ -168,7 +169,8 @@ static uint32_t number_slots(const struct work *work)
     return count;
 }
 
-/* Finds the tiles that are there, and makes room for what the first round finds in them and around. */
+/* Finds the tiles that are there, and makes room for what the first round finds in them and
+ * around. */
 static ps_result make_slots(struct work *work)
 {
     const ps_host *host = work->setting->paths.host;
@@ -191,8 +193,8 @@ static struct allocation allocation_of(const struct work *work, struct tile_pilo
 {
     size_t tiles = work->setting->paths.pass->tile_count, count = 0;
     const struct gather_setting *setting = work->setting;
-    /* The first round may have missed all that there is to be found in a tile, and has much more noise than guided rays:
-     * half of those are taken everywhere. */
+    /* The first round may have missed all that there is to be found in a tile, and has much more
+     * noise than guided rays: half of those are taken everywhere. */
     const struct allocation_limits limits = {
         .first = GATHER_FIRST,
         .samples = setting->samples,
@@ -205,7 +207,8 @@ static struct allocation allocation_of(const struct work *work, struct tile_pilo
     return allocation_for(&limits, pilots, count);
 }
 
-/* Takes the first round of tiles, and finds the allocation, where it is not known, by those that stand for the picture. */
+/* Takes the first round of tiles, and finds the allocation, where it is not known, by those that
+ * stand for the picture. */
 static ps_result find_allocation(struct work *work, struct gather_allocation *allocation)
 {
     const ps_host *host = work->setting->paths.host;

@@ -1,4 +1,5 @@
-/* gather_picture.h: the final gather of a pass's pixels, with more samples in tiles that need them (allocation.h). */
+/* gather_picture.h: the final gather of a pass's pixels, with more samples in tiles that need them
+ * (allocation.h). */
 #ifndef PSPLAT_ESTIMATOR_GATHER_PICTURE_H
 #define PSPLAT_ESTIMATOR_GATHER_PICTURE_H
 
@@ -19,8 +20,9 @@ struct gather_allocation {
     struct allocation by_error;
 };
 
-/* Adds what setting->samples of each pixel find. `adaptive`: so many on average, more where they are needed, by `allocation`, which is
- * found where it is not known. PS_ERROR_MEMORY or PS_CANCELLED. */
+/* Adds what setting->samples of each pixel find. `adaptive`: so many on average, more where they
+ * are needed, by `allocation`, which is found where it is not known. PS_ERROR_MEMORY or
+ * PS_CANCELLED. */
 ps_result gather_picture(const struct gather_setting *setting, bool adaptive,
                          struct gather_allocation *allocation);
 

@@ -24,8 +24,8 @@ static uint8_t choose_guide(struct gather *gather, ps_vec3 normal)
     return (uint8_t)gather->guide_count++;
 }
 
-/* Turns guides to the mean of the normals that share them: of a bent surface, the horizon of one point would hide the light of another,
- * which rays by the cosine alone would find. */
+/* Turns guides to the mean of the normals that share them: of a bent surface, the horizon of one
+ * point would hide the light of another, which rays by the cosine alone would find. */
 static void face_mean_normals(struct gather *gather)
 {
     ps_vec3 sums[GATHER_GUIDES] = {{0, 0, 0}};
@@ -135,7 +135,8 @@ static void end_sample(struct gather *gather, const struct batch *batch, size_t 
         add_to_guide(gather, i, batch->bins[k], found);
 }
 
-/* Weighs the rays of the first round by the guides of the round that begins, for its share of the guided rays. */
+/* Weighs the rays of the first round by the guides of the round that begins, for its share of the
+ * guided rays. */
 static void add_first(struct gather *gather)
 {
     for (size_t number = 0; number < GATHER_FIRST; number++)
@@ -208,7 +209,8 @@ static void add_known(struct batch *batch, const struct paths *paths, size_t i, 
     *found = ps_rgb_add(*found, ps_rgb_multiply(paths->throughput[i], light));
 }
 
-/* Adds the light of the lights, and what the cache knows of surfaces that are only diffuse; paths end where that is all. */
+/* Adds the light of the lights, and what the cache knows of surfaces that are only diffuse; paths
+ * end where that is all. */
 static void light_paths(const struct gather_setting *setting, struct batch *batch, uint32_t number,
                         struct paths *paths, struct paths_segment *segment)
 {
@@ -328,7 +330,8 @@ void gather_keep_first_round(struct gather *gather)
     }
 }
 
-/* Neighbours know of light that the few rays here have missed, and where these were lucky, do not point there because of it. */
+/* Neighbours know of light that the few rays here have missed, and where these were lucky, do not
+ * point there because of it. */
 static void add_from_around(struct gather *gather, const struct gather_first *const around[],
                             size_t count)
 {
@@ -381,7 +384,8 @@ static void take_round(struct gather *gather, const struct round *round)
     gather->done += round->longest;
 }
 
-/* Shares out a round of at most `most` samples to the points. Returns whether all have theirs with it. */
+/* Shares out a round of at most `most` samples to the points. Returns whether all have theirs with
+ * it. */
 static bool begin_round(struct gather *gather, uint64_t most, struct round *round)
 {
     bool last = true;
@@ -400,8 +404,8 @@ static bool begin_round(struct gather *gather, uint64_t most, struct round *roun
     return last;
 }
 
-/* Rounds of 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones would learn sooner, but the
- * samples of a round are stratified together, which is worth more. */
+/* Rounds of 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones would
+ * learn sooner, but the samples of a round are stratified together, which is worth more. */
 void gather_samples(struct gather *gather, uint64_t samples)
 {
     for (bool last = false; !last;) {

@@ -1,17 +1,19 @@
 /* gather_rays.h: the final gather of a group of points: the pixels of a tile, or surfels.
  *
- * Paths leave the points (paths.h) and go on until a cache of irradiance knows the rest, or to their end. Their first
- * directions are drawn where those before them found light (guide.h).
+ * Paths leave the points (paths.h) and go on until a cache of irradiance knows the rest, or to
+ * their end. Their first directions are drawn where those before them found light (guide.h).
  *
- * The first round's rays, c of them with the cosine's density p_c, are much noisier than the g guided ones where light comes from a
- * small part of the hemisphere. Both are combined by the balance heuristic (Veach and Guibas 1995): with a density q, rays by
- * the cosine have the weight c p_c / (c p_c + g q) and guided ones g q / (c p_c + g q). For each direction the weights add up to 1
- * whatever q is, so q may be smoother than the density that was sampled (guide_smooth_ratio()). Where there are guides of
- * several rounds, this is done with each, and the mean over all guided rays is taken.
+ * The first round's rays, c of them with the cosine's density p_c, are much noisier than the g
+ * guided ones where light comes from a small part of the hemisphere. Both are combined by the
+ * balance heuristic (Veach and Guibas 1995): with a density q, rays by the cosine have the weight c
+ * p_c / (c p_c + g q) and guided ones g q / (c p_c + g q). For each direction the weights add up to
+ * 1 whatever q is, so q may be smoother than the density that was sampled (guide_smooth_ratio()).
+ * Where there are guides of several rounds, this is done with each, and the mean over all guided
+ * rays is taken.
  *
- * Neither q nor g may depend on the rays that they weigh, or bright rays count for too little. So the points of a group are two
- * halves, and each half is weighed by the guide and the number of samples that the other half and the groups around give
- * (cross-fitting).
+ * Neither q nor g may depend on the rays that they weigh, or bright rays count for too little. So
+ * the points of a group are two halves, and each half is weighed by the guide and the number of
+ * samples that the other half and the groups around give (cross-fitting).
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_RAYS_H
 #define PSPLAT_ESTIMATOR_GATHER_RAYS_H
@@ -42,8 +44,8 @@ struct gather_landing {
     uint32_t path;    /* whose ray it is: known[path] is what the cache knows */
 };
 
-/* Looks up what the cache knows for up to PS_TILE_PIXELS landings. is_known[path] is false where it knows nothing, or where the
- * ray is too short for it: the path goes on. Any thread. */
+/* Looks up what the cache knows for up to PS_TILE_PIXELS landings. is_known[path] is false where it
+ * knows nothing, or where the ray is too short for it: the path goes on. Any thread. */
 typedef void (*gather_lookup)(const void *cache, const struct gather_landing *landings, size_t n,
                               struct cached_irradiance *known, bool *is_known);
 
@@ -58,10 +60,11 @@ struct gather_setting {
     double share_before;     /* of a pass's time, which what comes before the picture takes */
 };
 
-/* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. And the guides'
- * histograms of that (gather_keep_first_round()). */
+/* What the rays of the first round found, by the cosine, and where: to be weighed when there are
+ * guides. And the guides' histograms of that (gather_keep_first_round()). */
 struct gather_first {
-    /* Factors on the number of guided samples of each point (sample_factors.h): set by gather_begin() to 1. */
+    /* Factors on the number of guided samples of each point (sample_factors.h): set by
+     * gather_begin() to 1. */
     float factors[PS_TILE_PIXELS];
     ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
     struct guide_bin bins[GATHER_FIRST][PS_TILE_PIXELS];
@@ -74,22 +77,25 @@ struct gather {
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
     uint64_t done; /* samples, of a point that has most */
-    /* Samples in all by which rays of either half are weighed: set by gather_begin() to the mean. */
+    /* Samples in all by which rays of either half are weighed: set by gather_begin() to the
+     * mean. */
     uint64_t expected_samples[2];
-    /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what the first half of each
-     * round has of it. */
+    /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what
+     * the first half of each round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
     struct gather_first first;
     /* Of the round under way, for each point: its samples, and the index of the first. */
     uint64_t taken[PS_TILE_PIXELS], starts[PS_TILE_PIXELS];
-    /* What one of a point's guided samples is of all, and how many of them rays of its half are weighed by. */
+    /* What one of a point's guided samples is of all, and how many of them rays of its half are
+     * weighed by. */
     float guided_share[PS_TILE_PIXELS], guided_expected[PS_TILE_PIXELS];
     uint8_t guide_of[PS_TILE_PIXELS];
     uint32_t guide_count;
     struct guide guides[GATHER_GUIDES];
 };
 
-/* Which half of the group a point is of, 0 or 1: of the curve, along which samples are stratified. */
+/* Which half of the group a point is of, 0 or 1: of the curve, along which samples are
+ * stratified. */
 int gather_half_of(const struct gather *gather, size_t point);
 
 /* Chooses guides, when setting, index and points are given and the rest is 0. */
@@ -98,11 +104,12 @@ void gather_begin(struct gather *gather);
 /* Takes samples in rounds, until `samples` are done of a point whose factor is 1. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
 
-/* After a first round that no other follows for now: adds it to the guides, and keeps their histograms in gather->first. */
+/* After a first round that no other follows for now: adds it to the guides, and keeps their
+ * histograms in gather->first. */
 void gather_keep_first_round(struct gather *gather);
 
-/* Goes on after the first round of a gather of the same points, which was kept; more samples are to follow, by first->factors.
- * They are also guided by what those of `count` gathers around found. */
+/* Goes on after the first round of a gather of the same points, which was kept; more samples are to
+ * follow, by first->factors. They are also guided by what those of `count` gathers around found. */
 void gather_resume(struct gather *gather, const struct gather_first *first,
                    const struct gather_first *const around[], size_t count);
 

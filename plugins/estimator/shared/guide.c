@@ -59,7 +59,8 @@ static void add_to_both(struct guide *guide, struct guide_bin bin, float irradia
     guide_add(guide, 1, bin, irradiance);
 }
 
-/* The bin where the middle of one of another guide's lies, and `found` as the cosine to this one's normal has it. */
+/* The bin where the middle of one of another guide's lies, and `found` as the cosine to this one's
+ * normal has it. */
 static struct guide_bin bin_from(const struct guide *guide, ps_vec3 normal, int ring, int sector,
                                  float *found)
 {
@@ -90,7 +91,8 @@ void guide_add_histogram(struct guide *guide, const struct guide_histogram *hist
 
 /* --- smoothing --- */
 
-/* Neighbours tell of a bin, too: what of ring `from`, and of a sector `away` from it, counts there. */
+/* Neighbours tell of a bin, too: what of ring `from`, and of a sector `away` from it, counts
+ * there. */
 static float of_ring(int to, int from)
 {
     bool is_border = to == 0 || to == GUIDE_RINGS - 1;
@@ -126,7 +128,8 @@ static float smooth(guide_bins from, guide_bins to)
     return sum;
 }
 
-/* The factor by which the light of a bin becomes a density over that of the cosine; `total`: of all bins. */
+/* The factor by which the light of a bin becomes a density over that of the cosine; `total`: of all
+ * bins. */
 static float scale_of(float total)
 {
     return total > LEAST_LIGHT ? (1.0f - BY_COSINE) * (float)GUIDE_BINS / total : 0.0f;
@@ -156,7 +159,8 @@ void guide_update(struct guide *guide)
 
 /* --- directions --- */
 
-/* Inverts a cumulative distribution over n bins at a number of [0, 1). In bins: 2.25 is a quarter into the third one. */
+/* Inverts a cumulative distribution over n bins at a number of [0, 1). In bins: 2.25 is a quarter
+ * into the third one. */
 static inline float invert(const float *ends, int n, float number)
 {
     float at = number * ends[n - 1];
@@ -169,7 +173,8 @@ static inline float invert(const float *ends, int n, float number)
     return (float)i + (part > 0.0f ? ps_min((at - before) / part, 0.999998f) : 0.5f);
 }
 
-/* The direction at a position in the histogram, in bins: ps_cosine_direction() by the guide's frame. */
+/* The direction at a position in the histogram, in bins: ps_cosine_direction() by the guide's
+ * frame. */
 static inline struct guide_sample direction_at(const struct guide *guide, float ring, float sector)
 {
     float sine2 = ring / GUIDE_RINGS, phi = sector * (2.0f * PS_PI / GUIDE_SECTORS);

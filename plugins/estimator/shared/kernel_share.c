@@ -6,7 +6,8 @@
 #define LIFT 0.125f     /* radii above the surface at which rays run along it */
 #define TURN 2.3999632f /* the golden angle */
 
-/* So that the points have the density of the kernel, (1 - s) s over the radius: the inverse of 3 s^2 - 2 s^3. */
+/* So that the points have the density of the kernel, (1 - s) s over the radius: the inverse of 3
+ * s^2 - 2 s^3. */
 static float radius_at(float u)
 {
     return 0.5f - sinf(asinf(1.0f - 2.0f * u) / 3.0f);

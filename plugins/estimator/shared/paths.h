@@ -1,12 +1,14 @@
-/* paths.h: paths from the pixels of a tile, which advance together: what path tracing, gathering and
- * compensation have in common.
+/* paths.h: paths from the pixels of a tile, which advance together: what path tracing, gathering
+ * and compensation have in common.
  *
- * Kajiya 1986. A path goes on at every surface by its own scattering. At each one the light of the lights that it
- * reflects is added (next-event estimation), and after mirrors, glass and gloss the emission that the path meets,
- * which are caustics; gloss weighs both. Emission met from a diffuse surface is direct light of that surface, and
- * counted there. Russian roulette ends paths at diffuse surfaces.
+ * Kajiya 1986. A path goes on at every surface by its own scattering. At each one the light of the
+ * lights that it reflects is added (next-event estimation), and after mirrors, glass and gloss the
+ * emission that the path meets, which are caustics; gloss weighs both. Emission met from a diffuse
+ * surface is direct light of that surface, and counted there. Russian roulette ends paths at
+ * diffuse surfaces.
  *
- * Random numbers are those of one set for each segment, four dimensions each. Rays go to the tracer in packets.
+ * Random numbers are those of one set for each segment, four dimensions each. Rays go to the tracer
+ * in packets.
  */
 #ifndef PSPLAT_ESTIMATOR_PATHS_H
 #define PSPLAT_ESTIMATOR_PATHS_H
@@ -25,14 +27,17 @@ struct paths_setting {
     const ps_host *host;
     const ps_pass *pass;
     uint32_t roulette; /* bounce from which on paths may be ended */
-    /* Somebody else adds the caustics on the points that paths start from: light that a surface smoother than this roughness
-     * sends on, and perhaps others, none of them diffusely. 0: nobody does. */
+    /* Somebody else adds the caustics on the points that paths start from: light that a surface
+     * smoother than this roughness sends on, and perhaps others, none of them diffusely. 0: nobody
+     * does. */
     float caustics_below;
-    /* Only light that all surfaces on its way have scattered diffusely, or by gloss no smoother than this roughness. 0: any. */
+    /* Only light that all surfaces on its way have scattered diffusely, or by gloss no smoother
+     * than this roughness. 0: any. */
     float least_roughness;
 };
 
-/* The paths of one sample of a tile that are still under way; entry i belongs to pixel pixels[i]. */
+/* The paths of one sample of a tile that are still under way; entry i belongs to pixel
+ * pixels[i]. */
 struct paths {
     size_t count;
     uint32_t pixels[PS_TILE_PIXELS];
@@ -44,8 +49,9 @@ struct paths {
     float pdfs[PS_TILE_PIXELS];       /* of the last scattering, where its lobe was glossy */
     float spreads[PS_TILE_PIXELS];    /* of the cone around the ray (ps_cone_spread) */
     uint8_t shines[PS_TILE_PIXELS];   /* whether emission that is met counts */
-    /* Whether all surfaces on the way have mirrored, refracted or shone by gloss, and one of them is smoother than
-     * setting->caustics_below: what is found is a caustic, which somebody else adds. */
+    /* Whether all surfaces on the way have mirrored, refracted or shone by gloss, and one of them
+     * is smoother than setting->caustics_below: what is found is a caustic, which somebody else
+     * adds. */
     uint8_t caustic[PS_TILE_PIXELS];
 };
 
@@ -98,8 +104,8 @@ static inline void paths_intersect(const struct paths_setting *setting, const ps
                               segment->hits);
 }
 
-/* A path leaves a pixel's point along a ray. Russian roulette takes throughput in proportion to pi, with which paths by the
- * cosine start. */
+/* A path leaves a pixel's point along a ray. Russian roulette takes throughput in proportion to pi,
+ * with which paths by the cosine start. */
 static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, float throughput)
 {
     size_t i = paths->count++;
@@ -112,8 +118,8 @@ static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, fl
     paths->shines[i] = paths->caustic[i] = 0;
 }
 
-/* One path from each point, by cos(theta) / pi: pi times the radiance along it is an estimate of irradiance. It meets
- * nothing farther away than `reach`. */
+/* One path from each point, by cos(theta) / pi: pi times the radiance along it is an estimate of
+ * irradiance. It meets nothing farther away than `reach`. */
 static inline void paths_start(const struct paths_setting *setting, const ps_points *points,
                                const uint64_t *samples, float reach, struct paths *paths,
                                struct paths_segment *segment)
@@ -141,7 +147,8 @@ static inline void paths_add_radiance(const struct paths *paths, const ps_rgb *r
     }
 }
 
-/* Adds the emission that paths met after mirrors, glass and gloss, but for caustics that somebody else adds. */
+/* Adds the emission that paths met after mirrors, glass and gloss, but for caustics that somebody
+ * else adds. */
 static inline void paths_add_emission(const struct paths_setting *setting,
                                       const struct paths *paths,
                                       const struct paths_segment *segment, ps_rgb *sums)
@@ -175,7 +182,8 @@ static inline int paths_is_last(const struct paths_setting *setting, const struc
     return paths->bounces[i] >= setting->pass->bounces;
 }
 
-/* Adds what the surfaces that were met reflect of the lights: of those of some groups, for each path (NULL: of all). */
+/* Adds what the surfaces that were met reflect of the lights: of those of some groups, for each
+ * path (NULL: of all). */
 static inline void paths_add_direct(const struct paths_setting *setting, uint32_t number,
                                     const struct paths *paths, const uint8_t *groups,
                                     struct paths_segment *segment, ps_rgb *sums)
@@ -194,15 +202,16 @@ static inline void paths_add_direct(const struct paths_setting *setting, uint32_
         segment->hits[i].albedo = albedos[i];
 }
 
-/* Whether a path is on the way of such a caustic where this surface sends it on, but not diffusely. */
+/* Whether a path is on the way of such a caustic where this surface sends it on, but not
+ * diffusely. */
 static inline int paths_is_caustic_after(const struct paths_setting *setting,
                                          const struct paths *paths, size_t i, float roughness)
 {
     return paths->bounces[i] == 0 && (paths->caustic[i] || roughness < setting->caustics_below);
 }
 
-/* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics that somebody else adds, and
- * where they are smoother than setting->least_roughness. */
+/* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics
+ * that somebody else adds, and where they are smoother than setting->least_roughness. */
 static inline void paths_add_direct_without_caustics(const struct paths_setting *setting,
                                                      uint32_t number, const struct paths *paths,
                                                      const uint8_t *groups,
@@ -229,7 +238,8 @@ static inline void paths_add_emitted(const struct paths_setting *setting, struct
     paths_drop_lost(paths, segment);
 }
 
-/* Adds what is reflected there, but for what the setting leaves out; `groups` as in paths_add_direct(). */
+/* Adds what is reflected there, but for what the setting leaves out; `groups` as in
+ * paths_add_direct(). */
 static inline void paths_add_reflected(const struct paths_setting *setting, uint32_t number,
                                        const uint64_t *samples, const struct paths *paths,
                                        const uint8_t *groups, struct paths_segment *segment,
@@ -283,7 +293,8 @@ static inline int paths_scatter(const struct paths_setting *setting,
     return 1;
 }
 
-/* Sends the paths on from their hits. `lobes`: what they may go on by, 1 << PS_DIFFUSE and so on; the others end. */
+/* Sends the paths on from their hits. `lobes`: what they may go on by, 1 << PS_DIFFUSE and so on;
+ * the others end. */
 static inline void paths_scatter_all(const struct paths_setting *setting, uint32_t lobes,
                                      struct paths *paths, struct paths_segment *segment)
 {
@@ -298,8 +309,8 @@ static inline void paths_scatter_all(const struct paths_setting *setting, uint32
     paths->count = alive;
 }
 
-/* Follows paths, whose segment of that number has been intersected, to their ends: adds what the surfaces that they meet
- * emit and reflect. */
+/* Follows paths, whose segment of that number has been intersected, to their ends: adds what the
+ * surfaces that they meet emit and reflect. */
 static inline void paths_go_on(const struct paths_setting *setting, const ps_points *points,
                                const uint64_t *samples, uint32_t number, struct paths *paths,
                                struct paths_segment *segment, ps_rgb *sums)
@@ -326,8 +337,8 @@ static inline void paths_follow(const struct paths_setting *setting, const ps_po
 typedef void (*paths_trace)(const void *user, const ps_points *points, const uint64_t *samples,
                             ps_rgb *sums);
 
-/* The mean of `count` samples for each point, those of a pass that ps_tile_sample() chooses. Means nothing after the host
- * was cancelled. */
+/* The mean of `count` samples for each point, those of a pass that ps_tile_sample() chooses. Means
+ * nothing after the host was cancelled. */
 static inline void paths_average(const struct paths_setting *setting, uint64_t tile,
                                  const ps_points *points, uint64_t count, paths_trace trace,
                                  const void *user, ps_rgb *irradiance)

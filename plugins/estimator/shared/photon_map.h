@@ -1,4 +1,5 @@
-/* photon_map.h: photons where they arrive or leave, and the irradiance that the nearest of them give.
+/* photon_map.h: photons where they arrive or leave, and the irradiance that the nearest of them
+ * give.
  *
  * Jensen 1996. The k nearest photons estimate the irradiance, with r the distance of the k-th:
  *
@@ -50,7 +51,8 @@ struct photon_estimate {
 /* Which end of the photons' ways is stored. */
 enum photon_end {
     PHOTONS_ARRIVE, /* where their light lands */
-    PHOTONS_LEAVE /* where it leaves diffuse surfaces, with the power that leaves: for final gathering */
+    /* Where it leaves diffuse surfaces, with the power that leaves: for final gathering. */
+    PHOTONS_LEAVE
 };
 
 /* Begins a map of no photons. Release it, whatever comes of it. */
@@ -60,8 +62,8 @@ void photon_map_release(struct photon_map *map);
 ps_result photon_map_add(struct photon_map *map, const ps_pass *pass, enum photon_end end,
                          const ps_photon *photons, size_t n);
 
-/* Ends it, for `neighbours` photons to an estimate. A map of fewer than two photons, which can't tell a density, has no
- * estimate: its `index` is NULL. */
+/* Ends it, for `neighbours` photons to an estimate. A map of fewer than two photons, which can't
+ * tell a density, has no estimate: its `index` is NULL. */
 ps_result photon_map_build(struct photon_map *map, const ps_pass *pass, int64_t neighbours);
 
 /* All of this with all photons of the pass; warns where there are fewer than two. */
@@ -72,11 +74,12 @@ ps_result photon_map_create(const ps_host *host, const ps_pass *pass, enum photo
 ps_vec3 photon_map_position(const struct photon_map *map, size_t i);
 ps_vec3 photon_map_normal(const struct photon_map *map, size_t i);
 
-/* The `n` photons next to a point, nearest first; n is at most the map's `neighbours`. Any thread. */
+/* The `n` photons next to a point, nearest first; n is at most the map's `neighbours`. Any
+ * thread. */
 void photon_map_nearest(const struct photon_map *map, ps_vec3 position, int n, int *indices);
 
-/* Irradiance, or exitance where photons leave, in W/m^2, at up to PS_TILE_PIXELS points; and r of each, where `radii` is
- * not NULL. */
+/* Irradiance, or exitance where photons leave, in W/m^2, at up to PS_TILE_PIXELS points; and r of
+ * each, where `radii` is not NULL. */
 void photon_map_estimate(const struct photon_map *map, const struct photon_estimate *how,
                          uint32_t worker, const ps_vec3 *positions, const ps_vec3 *normals,
                          size_t n, ps_rgb *irradiance, float *radii);

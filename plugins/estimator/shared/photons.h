@@ -8,7 +8,8 @@
 /* Takes n > 0 photons. */
 typedef ps_result (*photons_take)(void *user, const ps_photon *photons, size_t n);
 
-/* Hands all photons of the pass on, in the order of emission, until one of the calls fails. Main thread. */
+/* Hands all photons of the pass on, in the order of emission, until one of the calls fails. Main
+ * thread. */
 static inline ps_result photons_for_each_batch(const ps_host *host, photons_take take, void *user)
 {
     const ps_photon *photons;
@@ -25,7 +26,8 @@ static inline ps_result photons_for_each_batch(const ps_host *host, photons_take
 
 typedef bool (*photons_belong)(const void *user, const ps_photon *photon);
 
-/* Copies those of n photons that belong, with `scale` times their power; `chosen` is room for n. Returns how many. */
+/* Copies those of n photons that belong, with `scale` times their power; `chosen` is room for n.
+ * Returns how many. */
 static inline size_t photons_choose(const ps_photon *photons, size_t n, photons_belong belong,
                                     const void *user, float scale, ps_photon *chosen)
 {
@@ -42,7 +44,8 @@ static inline size_t photons_choose(const ps_photon *photons, size_t n, photons_
 
 typedef ps_result (*photons_splatter)(const ps_host *host, const ps_photon *photons, size_t n);
 
-/* Splats those of n > 0 photons that belong, with `scale` times their power: by host->splat or host->splat_points. Main thread. */
+/* Splats those of n > 0 photons that belong, with `scale` times their power: by host->splat or
+ * host->splat_points. Main thread. */
 static inline ps_result photons_splat(const ps_host *host, photons_splatter splat,
                                       const ps_photon *photons, size_t n, photons_belong belong,
                                       const void *user, float scale)

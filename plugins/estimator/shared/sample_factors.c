@@ -2,7 +2,8 @@
 
 #include <stdbool.h>
 
-/* A point is compared with others of its tile in a square around it, every second one in either direction. */
+/* A point is compared with others of its tile in a square around it, every second one in either
+ * direction. */
 #define REACH 8
 #define STEP 2
 

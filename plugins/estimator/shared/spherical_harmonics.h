@@ -1,10 +1,12 @@
-/* spherical_harmonics.h: functions on the sphere by their four coefficients of orders 0 and 1 (real, orthonormal).
+/* spherical_harmonics.h: functions on the sphere by their four coefficients of orders 0 and 1
+ * (real, orthonormal).
  *
  *     f(w) = c_0 Y_0 + (c_1, c_2, c_3).w Y_1,   Y_0 = 1 / (2 sqrt(pi)),   Y_1 = sqrt(3 / (4 pi))
  *
- * Ramamoorthi and Hanrahan 2001, "An efficient representation for irradiance environment maps"; Sloan 2008, "Stupid
- * spherical harmonics tricks". Four coefficients hold a direction and how narrow the function is around it, up to
- * 1/4 + cos/2 for a clamped cosine, and nothing finer; they may be negative opposite to it.
+ * Ramamoorthi and Hanrahan 2001, "An efficient representation for irradiance environment maps";
+ * Sloan 2008, "Stupid spherical harmonics tricks". Four coefficients hold a direction and how
+ * narrow the function is around it, up to 1/4 + cos/2 for a clamped cosine, and nothing finer; they
+ * may be negative opposite to it.
  */
 #ifndef PSPLAT_ESTIMATOR_SPHERICAL_HARMONICS_H
 #define PSPLAT_ESTIMATOR_SPHERICAL_HARMONICS_H

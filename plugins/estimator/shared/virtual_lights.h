@@ -1,15 +1,15 @@
 /* virtual_lights.h: virtual point lights: photons that shine over their hemispheres (Keller 1997).
  *
- * A photon of power Phi (its direction is ignored) on a diffuse surface has intensity Phi / pi * cos(theta_photon); at
- * distance d it gives
+ * A photon of power Phi (its direction is ignored) on a diffuse surface has intensity Phi / pi *
+ * cos(theta_photon); at distance d it gives
  *
  *     E(p) = Phi / pi * G * V,   G = cos(theta_photon) * cos(theta_receiver) / d^2
  *
- * G has no bound as d goes to 0: bright spots near the photons. So d counts as a clamp distance at least, and what that
- * takes away is found by short rays (compensation.h).
+ * G has no bound as d goes to 0: bright spots near the photons. So d counts as a clamp distance at
+ * least, and what that takes away is found by short rays (compensation.h).
  *
- * Photons on mirrors, gloss and glass shine into one direction and can't be point lights: what they would light (caustics)
- * is left out. They are counted in the statistics.
+ * Photons on mirrors, gloss and glass shine into one direction and can't be point lights: what they
+ * would light (caustics) is left out. They are counted in the statistics.
  */
 #ifndef PSPLAT_ESTIMATOR_VIRTUAL_LIGHTS_H
 #define PSPLAT_ESTIMATOR_VIRTUAL_LIGHTS_H
@@ -36,8 +36,8 @@ struct virtual_lights {
     size_t count;
 };
 
-/* Draws at most `most` of the pass's photons at random, and gives them the power of all. In accumulate. Release the lights
- * whatever it returns. */
+/* Draws at most `most` of the pass's photons at random, and gives them the power of all. In
+ * accumulate. Release the lights whatever it returns. */
 ps_result virtual_lights_choose(const ps_host *host, const ps_pass *pass, size_t most,
                                 struct virtual_lights *chosen);
 void virtual_lights_release(struct virtual_lights *chosen);

@@ -21,8 +21,8 @@ static inline void voxel_components(ps_vec3 v, float components[3])
     components[2] = v.z;
 }
 
-/* A grid around the sphere of that centre and radius. `shift`, 0..1 along each axis, moves it by a part of a cell: what
- * surfaces at the borders of cells make of a grid differs with it. */
+/* A grid around the sphere of that centre and radius. `shift`, 0..1 along each axis, moves it by a
+ * part of a cell: what surfaces at the borders of cells make of a grid differs with it. */
 static inline struct voxel_grid voxel_grid_around(ps_vec3 center, float radius, uint32_t across,
                                                   const float shift[3])
 {
@@ -55,8 +55,8 @@ static inline bool voxel_grid_cell(const struct voxel_grid *grid, ps_vec3 positi
     return true;
 }
 
-/* Where a value lies between those of two neighbours along an axis, which are known in the middles of cells: the first
- * of the two, -1 at least, and the share of the second. */
+/* Where a value lies between those of two neighbours along an axis, which are known in the middles
+ * of cells: the first of the two, -1 at least, and the share of the second. */
 static inline int voxel_between(float place, float *share)
 {
     float below = floorf(place - 0.5f);

@@ -1,14 +1,15 @@
 #include "cones.h"
 
 #define GOLDEN_ANGLE 2.39996323f
-/* Thickness of layers over the width of the cone: layers as thick as a cone is wide are seldom filled where surfaces meet at
- * an edge, which lets light through. */
+/* Thickness of layers over the width of the cone: layers as thick as a cone is wide are seldom
+ * filled where surfaces meet at an edge, which lets light through. */
 #define SHARPNESS 0.35f
 /* How far a plane may be turned away, as seen along an axis, before its share fades. */
 #define FACING 4.0f
 #define LEAST_TRANSMITTANCE 0.004f /* a cone ends where less is left */
 
-/* --- cones ------------------------------------------------------------------------------------------------- */
+/* --- cones
+ * ---------------------------------------------------------------------------------------------- */
 
 void cones_make(uint32_t n, struct cone *cones)
 {
@@ -23,7 +24,8 @@ void cones_make(uint32_t n, struct cone *cones)
     }
 }
 
-/* --- layers ------------------------------------------------------------------------------------------------- */
+/* --- layers
+ * ---------------------------------------------------------------------------------------------- */
 
 /* A cone under way. Lengths are in voxels of the finest level. */
 struct walk {
@@ -50,8 +52,8 @@ static uint32_t bits_at_end(uint32_t value, uint32_t most)
     return count;
 }
 
-/* Chooses the layer that begins at a border: as thick as the walk wants it there, and as its place allows, so that no layer
- * is passed twice or left out. */
+/* Chooses the layer that begins at a border: as thick as the walk wants it there, and as its place
+ * allows, so that no layer is passed twice or left out. */
 static void choose_layer(const struct walk *walk, uint32_t axis, int32_t border,
                          struct layer *layer)
 {
@@ -84,9 +86,10 @@ static void first_layer(const struct walk *walk, uint32_t axis, struct layer *la
     layer->is_first = true;
 }
 
-/* What a voxel covers of a cone, over its opacity along an axis. Of a plane with normal n that a cone meets along d, those
- * axes show the side that the cone sees for which n_k d_k has the sign of n.d; the others show its back, and count for
- * nothing. Shares of planes at a slope add up to 1 in the mean alone, and more than 1 is of no use: they are raised by
+/* What a voxel covers of a cone, over its opacity along an axis. Of a plane with normal n that a
+ * cone meets along d, those axes show the side that the cone sees for which n_k d_k has the sign of
+ * n.d; the others show its back, and count for nothing. Shares of planes at a slope add up to 1 in
+ * the mean alone, and more than 1 is of no use: they are raised by
  *
  *     (|n_x| + |n_y| + |n_z|)^2 = 1 + 2 sum of |n_k n_l|,
  *
@@ -197,7 +200,8 @@ static struct seen look(const struct walk *walk, uint32_t axis, const struct lay
     return seen;
 }
 
-/* --- a whole cone -------------------------------------------------------------------------------------------- */
+/* --- a whole cone
+ * -------------------------------------------------------------------------------------------- */
 
 /* What a walk has come through. */
 struct passage {

@@ -3,7 +3,8 @@
 #include <assert.h>
 #include <string.h>
 
-/* --- one level ------------------------------------------------------------------------------------------ */
+/* --- one level
+ * ------------------------------------------------------------------------------------------ */
 
 /* A level without bricks. */
 static ps_result start_level(const ps_host *host, uint32_t across, struct volume_level *level)
@@ -71,7 +72,8 @@ static ps_result make_voxels(const ps_host *host, struct volume_level *level)
     return PS_OK;
 }
 
-/* --- levels ----------------------------------------------------------------------------------------------- */
+/* --- levels
+ * ---------------------------------------------------------------------------------------------- */
 
 /* Light of the voxel behind, as far as the one before leaves room for it. */
 static ps_rgb light_behind(const struct voxel *before, const struct voxel *behind, uint32_t axis,
@@ -81,8 +83,8 @@ static ps_rgb light_behind(const struct voxel *before, const struct voxel *behin
     return ps_rgb_scale(behind->light[side], covered > left ? left / covered : 1.0f);
 }
 
-/* Puts two voxels behind each other together, along an axis: adds a quarter of it to the voxel above. Either may be NULL.
- * `a` comes first along the axis. */
+/* Puts two voxels behind each other together, along an axis: adds a quarter of it to the voxel
+ * above. Either may be NULL. `a` comes first along the axis. */
 static void add_column(const struct voxel *a, const struct voxel *b, uint32_t axis,
                        struct voxel *above)
 {
@@ -188,7 +190,8 @@ ps_result volume_build_levels(struct volume *volume)
     return result;
 }
 
-/* --- light that comes later ------------------------------------------------------------------------------ */
+/* --- light that comes later
+ * ------------------------------------------------------------------------------ */
 
 struct lighting {
     const struct volume *volume;
@@ -235,7 +238,8 @@ void volume_add_light(struct volume *volume, uint32_t level, const ps_rgb (*ligh
         raise_level(volume, number);
 }
 
-/* --- the finest level --------------------------------------------------------------------------------------- */
+/* --- the finest level
+ * --------------------------------------------------------------------------------------- */
 
 static void add_part(const struct volume_level *level, const struct volume_part *part)
 {

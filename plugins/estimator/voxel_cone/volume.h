@@ -1,19 +1,22 @@
 /* volume.h: what cones look at: the scene in voxels, with coarser and coarser levels of them.
  *
- * Crassin et al. 2011. Each voxel knows, along each of the three axes, which share of it is covered (opacity), and for
- * each of six sides the mean radiance that a look along the axis at this side finds in it; what looks through counts as
- * black (premultiplied). A level has half as many voxels along each axis as the one below. Two voxels behind each other
- * are put together as layers, a before b,
+ * Crassin et al. 2011. Each voxel knows, along each of the three axes, which share of it is covered
+ * (opacity), and for each of six sides the mean radiance that a look along the axis at this side
+ * finds in it; what looks through counts as black (premultiplied). A level has half as many voxels
+ * along each axis as the one below. Two voxels behind each other are put together as layers, a
+ * before b,
  *
  *     opacity = 1 - (1 - opacity_a) (1 - opacity_b)
  *     light   = light_a + (1 - opacity_a) light_b,
  *
- * and the four columns side by side by their mean: so a wall stays opaque, and its dark side dark, however coarse the
- * level is. A mean of all eight would make a wall of one voxel half transparent at each level.
+ * and the four columns side by side by their mean: so a wall stays opaque, and its dark side dark,
+ * however coarse the level is. A mean of all eight would make a wall of one voxel half transparent
+ * at each level.
  *
- * Memory goes by surfaces: voxels that hold none are not there. The paper keeps an octree of bricks. Here each level has
- * bricks of 4x4x4 voxels, found by a table (one word for each place of a brick) in place of a walk down the tree; in a
- * brick a bit tells which voxels there are, and the bits before it where (popcount).
+ * Memory goes by surfaces: voxels that hold none are not there. The paper keeps an octree of
+ * bricks. Here each level has bricks of 4x4x4 voxels, found by a table (one word for each place of
+ * a brick) in place of a walk down the tree; in a brick a bit tells which voxels there are, and the
+ * bits before it where (popcount).
  */
 #ifndef PSPLAT_VOXEL_CONE_VOLUME_H
 #define PSPLAT_VOXEL_CONE_VOLUME_H
@@ -29,7 +32,8 @@ static inline uint32_t volume_side(uint32_t axis, bool against)
     return against ? axis + 3 : axis;
 }
 
-/* How surfaces lie: the sum of n_k n_l over their area, in squares of a voxel's side (up to a factor). */
+/* How surfaces lie: the sum of n_k n_l over their area, in squares of a voxel's side (up to a
+ * factor). */
 struct voxel_tilt {
     float diagonal[3]; /* k = l: 0, 1, 2 */
     float mixed[3];    /* k and l: 0 and 1, 1 and 2, 2 and 0 */
@@ -72,16 +76,17 @@ struct volume_part {
     ps_rgb light[2];        /* of the sides that face along the axis and against it */
 };
 
-/* Makes the finest level of n parts: voxels where there are any, at most one part for each voxel and axis. Release the
- * volume whatever it returns. */
+/* Makes the finest level of n parts: voxels where there are any, at most one part for each voxel
+ * and axis. Release the volume whatever it returns. */
 ps_result volume_create(const ps_host *host, const struct voxel_grid *grid,
                         const struct volume_part *parts, size_t n, struct volume *volume);
 
 /* Makes the coarser levels of the finest one. Main thread. */
 ps_result volume_build_levels(struct volume *volume);
 
-/* Adds light to the finest level, and brings the coarser ones up to date. `light` has six sides for each voxel of a level,
- * premultiplied by its opacity, as voxels have them; the voxels below share it as far as they are covered. Main thread. */
+/* Adds light to the finest level, and brings the coarser ones up to date. `light` has six sides for
+ * each voxel of a level, premultiplied by its opacity, as voxels have them; the voxels below share
+ * it as far as they are covered. Main thread. */
 void volume_add_light(struct volume *volume, uint32_t level, const ps_rgb (*light)[6]);
 
 void volume_release(struct volume *volume);

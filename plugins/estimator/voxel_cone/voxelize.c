@@ -37,10 +37,11 @@ struct layer_work {
     uint32_t *last_cells;
 };
 
-/* --- light -------------------------------------------------------------------------------------------------- */
+/* --- light
+ * ---------------------------------------------------------------------------------------------- */
 
-/* Radiance towards where the lines came from, of direct light that is reflected diffusely: what gloss makes of it is left
- * to photons, as one direction would stand for all. */
+/* Radiance towards where the lines came from, of direct light that is reflected diffusely: what
+ * gloss makes of it is left to photons, as one direction would stand for all. */
 static void find_light(const struct work *work, struct surface_crossings *crossings,
                        ps_rgb *radiance)
 {
@@ -55,7 +56,8 @@ static void find_light(const struct work *work, struct surface_crossings *crossi
                           indices, crossings->n, radiance);
 }
 
-/* --- surfaces ------------------------------------------------------------------------------------------------ */
+/* --- surfaces
+ * ---------------------------------------------------------------------------------------------- */
 
 /* The cell along the way of a line, 0 <= cell < across, and how far along it, 0..1. */
 static uint32_t cell_along(const struct voxel_grid *grid, uint32_t axis, ps_vec3 position,
@@ -136,7 +138,8 @@ static struct volume_part part_of(const struct column *column, const struct surf
     };
 }
 
-/* Takes what surfaces lie in out of the columns, in their order; `parts` has room for it, or is NULL: it is dropped. */
+/* Takes what surfaces lie in out of the columns, in their order; `parts` has room for it, or is
+ * NULL: it is dropped. */
 static void take_columns(const struct layer_work *work, uint32_t axis, uint32_t row,
                          struct layer *layer)
 {
@@ -196,7 +199,8 @@ static void find_layer(void *user, uint64_t index, uint32_t worker)
     kept->result = keep_layer(&layer, axis, row, kept);
 }
 
-/* --- the volume --------------------------------------------------------------------------------------------- */
+/* --- the volume
+ * --------------------------------------------------------------------------------------------- */
 
 /* All layers in one array, in their order. */
 static ps_result join(const struct work *work, struct volume *volume)
@@ -255,7 +259,8 @@ ps_result voxelize(const struct surface_lines *lines, const ps_pass *pass, struc
     return result;
 }
 
-/* --- photons ------------------------------------------------------------------------------------------------- */
+/* --- photons
+ * ---------------------------------------------------------------------------------------------- */
 
 ps_result photon_light_create(const struct volume *volume, uint64_t paths,
                               struct photon_light *light)
@@ -279,8 +284,8 @@ void photon_light_release(struct photon_light *light)
     *light = (struct photon_light){.host = light->host};
 }
 
-/* The voxel of a photon on its level, or NULL: where it lies, or half a voxel of the finest level to either side of its
- * surface, since lines find a place on the border of two cells in either. */
+/* The voxel of a photon on its level, or NULL: where it lies, or half a voxel of the finest level
+ * to either side of its surface, since lines find a place on the border of two cells in either. */
 static const struct voxel *voxel_near(const struct photon_light *light, const ps_photon *photon)
 {
     static const float sides[] = {0.0f, -0.5f, 0.5f};

@@ -2,7 +2,8 @@
 
 #define RAYS 256 /* at a time */
 
-/* How far behind a plane is still on it, in distances from the light: smoothed normals and rounding. */
+/* How far behind a plane is still on it, in distances from the light: smoothed normals and
+ * rounding. */
 #define TOLERANCE 0.005f
 
 /* The direction through a cell's centre. */

@@ -28,8 +28,8 @@ struct point_cloud {
     int across;  /* cells along each axis */
 };
 
-/* Of `wanted` points, or fewer where there are hardly any surfaces. False where there is no memory: it then holds nothing. To be
- * released. */
+/* Of `wanted` points, or fewer where there are hardly any surfaces. False where there is no memory:
+ * it then holds nothing. To be released. */
 bool imperfect_cloud_create(const ps_host *host, size_t wanted, struct point_cloud *cloud);
 void imperfect_cloud_release(const ps_host *host, struct point_cloud *cloud);
 

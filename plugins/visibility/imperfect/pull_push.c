@@ -39,8 +39,8 @@ static void open_holes(float *depths, int side, int reach, float apart, uint8_t 
         }
 }
 
-/* Mean depth of the texels of a block of four that lie within `apart` of the nearest: a hole belongs
- * to the surface in front. */
+/* Mean depth of the texels of a block of four that lie within `apart` of the nearest: a hole
+ * belongs to the surface in front. */
 static float pull_block(const float *depths, uint32_t side, uint32_t left, uint32_t top,
                         float apart)
 {

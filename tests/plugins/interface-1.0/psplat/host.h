@@ -1,11 +1,11 @@
 /* host.h: the services that psplat gives to plugins.
  *
- * A plugin links neither Embree nor OpenMP nor anything of psplat: everything it needs comes through this
- * table. Words used below. [main thread]: the thread that drives the render; [any thread]: also
- * from inside a parallel_for body or a callback that is marked [worker]. "Borrowed until X": the
- * host owns it. [estimator]: for estimators, inside of accumulate. [tiles]: for estimators, from begin to
- * end. A call out of place, or with an index that does not exist, does nothing but make the callback that it
- * comes from fail, with a message that names the service.
+ * A plugin links neither Embree nor OpenMP nor anything of psplat: everything it needs comes
+ * through this table. Words used below. [main thread]: the thread that drives the render; [any
+ * thread]: also from inside a parallel_for body or a callback that is marked [worker]. "Borrowed
+ * until X": the host owns it. [estimator]: for estimators, inside of accumulate. [tiles]: for
+ * estimators, from begin to end. A call out of place, or with an index that does not exist, does
+ * nothing but make the callback that it comes from fail, with a message that names the service.
  */
 #ifndef PSPLAT_HOST_H
 #define PSPLAT_HOST_H
@@ -17,8 +17,8 @@ typedef struct ps_host ps_host;
 typedef enum ps_log_level { PS_LOG_DEBUG = 0, PS_LOG_INFO = 1, PS_LOG_WARNING = 2 } ps_log_level;
 
 /* Streams of random numbers, independent of each other. The first ones have a purpose; from
- * PS_STREAM_PLUGIN upwards each kind of strategy has streams of its own, so that plugins cannot share
- * one by chance. */
+ * PS_STREAM_PLUGIN upwards each kind of strategy has streams of its own, so that plugins cannot
+ * share one by chance. */
 typedef enum ps_stream {
     PS_STREAM_PIXEL = 0, /* jitter of a pixel */
     PS_STREAM_EMISSION = 1,
@@ -63,12 +63,12 @@ struct ps_host {
 
     /* --- the plugin itself --- */
 
-    /* A table of optional services by its name, such as PS_CELLS_EXTENSION, or NULL where this psplat has
-     * none of that name. Its header states the type. Borrowed for ever. [any thread] */
+    /* A table of optional services by its name, such as PS_CELLS_EXTENSION, or NULL where this
+     * psplat has none of that name. Its header states the type. Borrowed for ever. [any thread] */
     const void *(*extension)(const ps_host *host, const char *name);
 
-    /* Why a callback fails, or must be taken to have failed if it has no result: one line, which the user
-     * sees after the plugin's kind and name. The first one counts. Returns `result`, or
+    /* Why a callback fails, or must be taken to have failed if it has no result: one line, which
+     * the user sees after the plugin's kind and name. The first one counts. Returns `result`, or
      * PS_ERROR_INVALID in place of PS_OK. [any thread] */
     ps_result (*fail)(const ps_host *host, ps_result result, const char *why);
 
@@ -109,9 +109,9 @@ struct ps_host {
     /* Whether something lies on each ray between tnear and tfar: 1 or 0. [any thread] */
     void (*occluded)(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked);
 
-    /* Shortens tfar of each ray to its first hit. The fastest way where 16 rays run close together and side
-     * by side, in 4x4 blocks rather than rows: `coherent` then is 1. Where they run apart, 0 is
-     * faster; either gives the same. [any thread] */
+    /* Shortens tfar of each ray to its first hit. The fastest way where 16 rays run close together
+     * and side by side, in 4x4 blocks rather than rows: `coherent` then is 1. Where they run apart,
+     * 0 is faster; either gives the same. [any thread] */
     void (*intersect_packets)(const ps_host *host, ps_ray_packet *packets, size_t n, int coherent);
 
     /* --- surfaces --- */
@@ -122,9 +122,9 @@ struct ps_host {
                         const ps_hit *hits, const float (*samples)[4], size_t n,
                         ps_bsdf_sample *sampled);
 
-    /* What each surface that was met scatters from a direction away from it into the one that its ray came
-     * out of: the light runs backwards along the ray (PS_FROM_CAMERA), or along the ray and on in that
-     * direction (PS_FROM_LIGHT). Only for hits at finite distance. [any thread] */
+    /* What each surface that was met scatters from a direction away from it into the one that its
+     * ray came out of: the light runs backwards along the ray (PS_FROM_CAMERA), or along the ray
+     * and on in that direction (PS_FROM_LIGHT). Only for hits at finite distance. [any thread] */
     void (*evaluate_bsdf)(const ps_host *host, ps_direction direction, const ps_ray *rays,
                           const ps_hit *hits, const ps_vec3 *directions, size_t n,
                           ps_bsdf_value *values);
@@ -138,8 +138,9 @@ struct ps_host {
                             ps_rgb *radiance);
 
     /* Radiance (W/(m^2 sr)) that what each ray met, be it the sky, emits along it. `pdfs`: those of
-     * the scatterings that the rays come from; where a pdf is not 0, the radiance is weighed against
-     * direct_radiance's own sampling at the ray's origin (Veach and Guibas 1995). [any thread] */
+     * the scatterings that the rays come from; where a pdf is not 0, the radiance is weighed
+     * against direct_radiance's own sampling at the ray's origin (Veach and Guibas 1995). [any
+     * thread] */
     void (*emitted_radiance)(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
                              const float *pdfs, size_t n, ps_rgb *radiance);
 
@@ -147,8 +148,8 @@ struct ps_host {
 
     /* Starts light paths: chooses lights by power, and for each gives the ray and the power (W)
      * that it would carry if it were the only one; divide by the number of paths. The first two
-     * numbers choose the direction, the others the light and the point on it. Zero power where there
-     * are no lights. [any thread] */
+     * numbers choose the direction, the others the light and the point on it. Zero power where
+     * there are no lights. [any thread] */
     void (*emit_light)(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
                        ps_rgb *power);
 
@@ -171,9 +172,9 @@ struct ps_host {
     void (*emit_from)(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
                       ps_ray *rays, ps_rgb *power);
 
-    /* For each of n places, a light chosen by power with the third of four numbers, and a point of it
-     * by the first two, looked at from there; nothing is traced. Irradiance 0 where there is no light, or the
-     * point does not shine there. [any thread] */
+    /* For each of n places, a light chosen by power with the third of four numbers, and a point of
+     * it by the first two, looked at from there; nothing is traced. Irradiance 0 where there is no
+     * light, or the point does not shine there. [any thread] */
     void (*sample_light)(const ps_host *host, const ps_vec3 *places, const float (*samples)[4],
                          size_t n, ps_light_sample *sampled);
 
@@ -192,12 +193,12 @@ struct ps_host {
     /* The camera; camera->size is set by the caller. [any thread] */
     void (*camera)(const ps_host *host, ps_camera *camera);
 
-    /* Where in the picture points show, in pixels from its upper left corner, be it outside of the picture
-     * or behind something; NAN behind the camera. [any thread] */
+    /* Where in the picture points show, in pixels from its upper left corner, be it outside of the
+     * picture or behind something; NAN behind the camera. [any thread] */
     void (*project)(const ps_host *host, const ps_vec3 *points, size_t n, float (*pixels)[2]);
 
-    /* The picture's column and row of lane `lane` of tile `tile`; 0 if it lies outside. [any thread,
-     * tiles] */
+    /* The picture's column and row of lane `lane` of tile `tile`; 0 if it lies outside. [any
+     * thread, tiles] */
     int32_t (*pixel)(const ps_host *host, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y);
 
     /* The other way: tile and lane of a pixel; 0 if it lies outside. [any thread, tiles] */
@@ -207,45 +208,49 @@ struct ps_host {
      * [any thread, tiles] */
     ps_tile *(*tile)(const ps_host *host, uint32_t index);
 
-    /* The surfaces that the pixels of a tile show, as intersect tells them, PS_TILE_PIXELS each, and the
-     * rays that met them, behind mirrors and glass: view directions are those of the rays, backwards. Lanes that see nothing
-     * have a hit without an object. The paths from the camera are traced again. [any thread, estimator] */
+    /* The surfaces that the pixels of a tile show, as intersect tells them, PS_TILE_PIXELS each,
+     * and the rays that met them, behind mirrors and glass: view directions are those of the rays,
+     * backwards. Lanes that see nothing have a hit without an object. The paths from the camera are
+     * traced again. [any thread, estimator] */
     void (*tile_hits)(const ps_host *host, uint32_t index, ps_ray *rays, ps_hit *hits);
 
     /* Calls body for every tile (index < pass's tile_count), like parallel_for, telling the
-     * progress. PS_CANCELLED, with tiles left out, when the user wants to stop. [main thread, estimator] */
+     * progress. PS_CANCELLED, with tiles left out, when the user wants to stop. [main thread,
+     * estimator] */
     ps_result (*for_each_tile)(const ps_host *host, ps_body body, void *user);
 
     /* --- photons and splats --- */
 
-    /* The light paths of the pass, which the injection prepares if it has not yet. [main thread, estimator] */
+    /* The light paths of the pass, which the injection prepares if it has not yet. [main thread,
+     * estimator] */
     ps_result (*path_count)(const ps_host *host, uint64_t *paths);
 
-    /* The pass's next batch of photons, injected and stratified, in the order of emission; n is 0 after
-     * the last. `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until
-     * the next call. [main thread, estimator] */
+    /* The pass's next batch of photons, injected and stratified, in the order of emission; n is 0
+     * after the last. `progress` becomes the share of the pass's paths that are done, 0..1.
+     * Borrowed until the next call. [main thread, estimator] */
     ps_result (*next_photons)(const ps_host *host, const ps_photon **photons, size_t *n,
                               double *progress);
 
-    /* Prepares the pass's splatting; before its first splat. A splat will light only the pixels
-     * of one of n x n interleaved subsets, n^2 times as strongly, and what neighbouring pixels learned
-     * is joined at the end of the pass; n <= PS_MOST_INTERLEAVE, 0: by the picture's size and the number of
-     * paths. The n of the render's first pass holds for all. [main thread, estimator] */
+    /* Prepares the pass's splatting; before its first splat. A splat will light only the pixels of
+     * one of n x n interleaved subsets, n^2 times as strongly, and what neighbouring pixels learned
+     * is joined at the end of the pass; n <= PS_MOST_INTERLEAVE, 0: by the picture's size and the
+     * number of paths. The n of the render's first pass holds for all. [main thread, estimator] */
     ps_result (*begin_splats)(const ps_host *host, uint32_t n);
 
-    /* After begin_splats: carries photons to the surfaces that they light, and adds their light to the
-     * tiles there, by the chosen visibility and filter. Irradiance += power * K * V * max(0, -n.w), weight
-     * += merged * K * V, which the tiles have when the pass ends; bitwise the same for any number of threads
-     * and any batching. [main thread, estimator] */
+    /* After begin_splats: carries photons to the surfaces that they light, and adds their light to
+     * the tiles there, by the chosen visibility and filter. Irradiance += power * K * V * max(0,
+     * -n.w), weight += merged * K * V, which the tiles have when the pass ends; bitwise the same
+     * for any number of threads and any batching. [main thread, estimator] */
     ps_result (*splat)(const ps_host *host, const ps_photon *photons, size_t n);
 
-    /* From now on in this pass splats leave short-range light out: what surfaces that
-     * lights shine on reflect, diffusely and only once, over less than two and a half radii of the
-     * splats, automatic or given, which splats would blur; the less of it, the farther it comes from. It is
-     * found by short rays instead, so many for a pixel in the middle of a surface and those that it is
-     * averaged with; 0: as many as find it about as well as the pass's splats find the rest. When the
-     * pass ends it is added to the tiles, without weight. Does nothing where bundles don't start at their
-     * photons and follow the distance. After begin_splats, before splat. [main thread, estimator] */
+    /* From now on in this pass splats leave short-range light out: what surfaces that lights shine
+     * on reflect, diffusely and only once, over less than two and a half radii of the splats,
+     * automatic or given, which splats would blur; the less of it, the farther it comes from. It is
+     * found by short rays instead, so many for a pixel in the middle of a surface and those that it
+     * is averaged with; 0: as many as find it about as well as the pass's splats find the rest.
+     * When the pass ends it is added to the tiles, without weight. Does nothing where bundles don't
+     * start at their photons and follow the distance. After begin_splats, before splat. [main
+     * thread, estimator] */
     ps_result (*gather_short_range)(const ps_host *host, double rays);
 };
 

@@ -66,8 +66,8 @@ typedef struct ps_param {
 #define PS_MEMBER_OF_PS_PARAM_CHOICE int32_t
 #define PS_MEMBER_OF_PS_PARAM_NUMBER_OR_CHOICE ps_number_or_choice
 
-/* Rows of a table; the parameter is named as the member that it fills. PS_ROW has all members, for rows whose
- * type takes no flags below. */
+/* Rows of a table; the parameter is named as the member that it fills. PS_ROW has all members, for
+ * rows whose type takes no flags below. */
 #define PS_ROW(state, member, type_, default_, minimum_, maximum_, flags_, choices_, unit_, help_) \
     {                                                                                              \
         .name = #member, .type = PS_TYPE_OF_MEMBER(state, member, type_), .flags = (flags_),       \

@@ -5,8 +5,8 @@
 #include <psplat/host.h>
 #include <psplat/math.h>
 
-/* Mirrors and glass that a path may meet between two diffuse surfaces; between facing mirrors it would
- * run for ever. */
+/* Mirrors and glass that a path may meet between two diffuse surfaces; between facing mirrors it
+ * would run for ever. */
 #define PS_LONGEST_CHAIN 32
 
 /* An albedo near 1 would keep a path alive for ever. */
@@ -23,8 +23,8 @@ static inline int ps_russian_roulette(float probability, float number, ps_rgb *c
     return 1;
 }
 
-/* Traces n rays, and moves those that meet something to the front, with their hits; returns how many.
- * kept[i] >= i becomes the place that number i came from. Any thread. */
+/* Traces n rays, and moves those that meet something to the front, with their hits; returns how
+ * many. kept[i] >= i becomes the place that number i came from. Any thread. */
 static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, ps_hit *hits,
                                    size_t *kept)
 {
@@ -40,8 +40,8 @@ static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, 
     return met;
 }
 
-/* For an injection whose photons lie where lights shine, in prepare: says, once a render, that there is light of
- * one bounce alone where more is asked for. */
+/* For an injection whose photons lie where lights shine, in prepare: says, once a render, that
+ * there is light of one bounce alone where more is asked for. */
 static inline void ps_warn_of_single_bounce(const ps_host *host, const ps_pass *pass,
                                             const char *warning)
 {

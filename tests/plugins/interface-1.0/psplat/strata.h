@@ -34,7 +34,8 @@ static inline void ps_strata_from_keys(ps_strata *strata)
             ps_strata_end_at(strata, i);
 }
 
-/* The first entry of that key or a larger one, where they are sorted; their number where there is none. */
+/* The first entry of that key or a larger one, where they are sorted; their number where there is
+ * none. */
 static inline size_t ps_strata_find(const ps_strata *strata, uint64_t key)
 {
     size_t low = 0, high = strata->entry_count;

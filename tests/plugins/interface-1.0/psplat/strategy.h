@@ -9,8 +9,8 @@
  * results may depend only on the arguments; [main thread]: called once at a time. Arrays are
  * borrowed for the call. A function that can fail returns a ps_result, and tells why by host->fail.
  *
- * Each table begins with its own size, by which psplat knows which members a module was built with: a
- * member that it does not have counts as 0. "Optional": may be NULL.
+ * Each table begins with its own size, by which psplat knows which members a module was built with:
+ * a member that it does not have counts as 0. "Optional": may be NULL.
  */
 #ifndef PSPLAT_STRATEGY_H
 #define PSPLAT_STRATEGY_H
@@ -36,9 +36,9 @@ typedef struct ps_injection_vtable {
      * out the pixels (host->begin_splats). [worker] */
     ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
                       size_t n, const ps_photon_sink *sink);
-    /* Optional. Makes what emit needs in this pass and keeps it in the state, which no other callback
-     * uses meanwhile. Before path_count and emit, in each pass whose photons are asked for; passes may
-     * not depend on each other. [main thread] */
+    /* Optional. Makes what emit needs in this pass and keeps it in the state, which no other
+     * callback uses meanwhile. Before path_count and emit, in each pass whose photons are asked
+     * for; passes may not depend on each other. [main thread] */
     ps_result (*prepare)(void *state, const ps_host *host, const ps_pass *pass);
 } ps_injection_vtable;
 
@@ -63,8 +63,8 @@ typedef struct ps_strata {
     size_t entry_count;
     size_t *starts; /* room for one more than there are photons */
     size_t count;
-    /* How the photons of a stratum merge: into as many as `per_stratum` (0: as 1) where there are as many,
-     * and no more than `most` (0: any number) into one. */
+    /* How the photons of a stratum merge: into as many as `per_stratum` (0: as 1) where there are
+     * as many, and no more than `most` (0: any number) into one. */
     uint64_t per_stratum, most;
 } ps_strata;
 
@@ -80,9 +80,9 @@ typedef struct ps_stratification_vtable {
      * `normal_angle` are psplat's. [main thread] */
     ps_result (*stratify)(const void *state, const ps_host *host, const ps_pass *pass,
                           ps_photon *photons, size_t n, ps_strata *strata);
-    /* Optional; without, there are no pictures of strata. The numbers of the strata that `count` points
-     * lie in, given the strata that stratify made of a pass; PS_NO_STRATUM where nothing would merge.
-     * [main thread] */
+    /* Optional; without, there are no pictures of strata. The numbers of the strata that `count`
+     * points lie in, given the strata that stratify made of a pass; PS_NO_STRATUM where nothing
+     * would merge. [main thread] */
     ps_result (*find_strata)(const void *state, const ps_host *host, const ps_strata *strata,
                              const ps_vec3 *points, size_t count, uint64_t *numbers);
 } ps_stratification_vtable;
@@ -90,20 +90,20 @@ typedef struct ps_stratification_vtable {
 /* --- visibility ------------------------------------------------------------------------------ */
 
 /* Which rays of a bundle pass. A table without functions lights everything inside of a splat's
- * footprint. With depth maps, psplat adds the parameters `resolution` and `bias`; the parameters of the
- * footprint are psplat's for all. */
+ * footprint. With depth maps, psplat adds the parameters `resolution` and `bias`; the parameters of
+ * the footprint are psplat's for all. */
 typedef struct ps_visibility_vtable {
     uint32_t size;
     uint32_t reserved;
-    /* Optional. Depth maps of n bundles: texel (i, j), u along i, at depths[(b * resolution + j) * resolution
-     * + i]: the depth t at which its ray ends, INFINITY where it meets nothing. The texel's centre is
-     * ps_texel_centre. 1 <= resolution <= PS_MOST_TEXELS. [worker] */
+    /* Optional. Depth maps of n bundles: texel (i, j), u along i, at depths[(b * resolution + j) *
+     * resolution + i]: the depth t at which its ray ends, INFINITY where it meets nothing. The
+     * texel's centre is ps_texel_centre. 1 <= resolution <= PS_MOST_TEXELS. [worker] */
     void (*depth_maps)(const void *state, const ps_host *host, const ps_bundle *bundles, size_t n,
                        uint32_t resolution, float *depths);
-    /* Optional, instead of depth maps. Whether the bundle lights each of n points inside of the splat's
-     * footprint that face the light; lit[i] becomes 1 or 0. The points were moved off their surfaces like
-     * origins of rays that leave them, so nothing at the point itself is in the way. Points before the
-     * start plane are lit. [worker] */
+    /* Optional, instead of depth maps. Whether the bundle lights each of n points inside of the
+     * splat's footprint that face the light; lit[i] becomes 1 or 0. The points were moved off their
+     * surfaces like origins of rays that leave them, so nothing at the point itself is in the way.
+     * Points before the start plane are lit. [worker] */
     void (*visible)(const void *state, const ps_host *host, const ps_bundle *bundle,
                     const ps_vec3 *points, size_t n, uint8_t *lit);
 } ps_visibility_vtable;
@@ -128,13 +128,13 @@ typedef struct ps_filter_vtable {
 typedef struct ps_estimator_vtable {
     uint32_t size;
     uint32_t flags; /* PS_ESTIMATOR_... */
-    /* Adds the pass's indirect light and its weight to the tiles. What is kept in the state lasts through
-     * the render. [main thread] */
+    /* Adds the pass's indirect light and its weight to the tiles. What is kept in the state lasts
+     * through the render. [main thread] */
     ps_result (*accumulate)(void *state, const ps_host *host, const ps_pass *pass);
     /* Optional. Once, before the first pass; `pass` describes it. [main thread] */
     ps_result (*begin)(void *state, const ps_host *host, const ps_pass *pass);
-    /* Optional. After each pass that was accumulated; the tiles hold its light, short-range light and all.
-     * [main thread] */
+    /* Optional. After each pass that was accumulated; the tiles hold its light, short-range light
+     * and all. [main thread] */
     ps_result (*end_pass)(void *state, const ps_host *host, const ps_pass *pass);
     /* Optional. Once, after the last pass, if begin was called and succeeded. [main thread] */
     void (*end)(void *state, const ps_host *host);
@@ -177,9 +177,9 @@ typedef struct ps_image_view {
     const float *depth;    /* INFINITY where nothing is seen */
     const float *weight;   /* sum over the passes of what the estimator weighed the light with */
     const float *coverage; /* passes in which a surface was seen */
-    /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT where
-     * nothing is seen; and the indirect radiance of the even and of the odd passes alone, whose
-     * difference tells the noise: NULL, too, where there is one pass. */
+    /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT
+     * where nothing is seen; and the indirect radiance of the even and of the odd passes alone,
+     * whose difference tells the noise: NULL, too, where there is one pass. */
     const uint32_t *object, *material;
     const float *even_r, *even_g, *even_b, *odd_r, *odd_g, *odd_b;
 } ps_image_view;

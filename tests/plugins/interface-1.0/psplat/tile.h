@@ -35,9 +35,9 @@ static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
     }
 }
 
-/* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own surface:
- * nothing shines on a point of its plane. Ray i left point targets[i]. `offset`: that of the rays
- * (ps_pass.surface_offset). */
+/* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own
+ * surface: nothing shines on a point of its plane. Ray i left point targets[i]. `offset`: that of
+ * the rays (ps_pass.surface_offset). */
 static inline void ps_forget_own_surface(const ps_points *points, const uint32_t *targets, size_t n,
                                          float offset, ps_hit *hits)
 {
@@ -49,8 +49,8 @@ static inline void ps_forget_own_surface(const ps_points *points, const uint32_t
     }
 }
 
-/* Where a pixel's own block of a sample sequence begins: 2^24 aligned indices, so that its first 2^k
- * samples are stratified. */
+/* Where a pixel's own block of a sample sequence begins: 2^24 aligned indices, so that its first
+ * 2^k samples are stratified. */
 static inline uint64_t ps_sample_block(uint64_t tile, uint32_t lane)
 {
     return (tile * PS_TILE_PIXELS + lane) << 24;
