@@ -2,6 +2,7 @@
  * (plugins/estimator/gather/surfel_table.h). */
 #include "plugins/estimator/gather/surfel_table.h"
 
+#include "support/one_strategy.h"
 #include "support/random.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,19 +15,6 @@
 #define LENGTH 8.0f /* of the rays that found the surfels: cubes of a quarter and wider know them */
 
 static const ps_vec3 up = {0, 0, 1};
-
-static void *allocate(const ps_host *host, size_t bytes, const char *what)
-{
-    (void)host;
-    (void)what;
-    return malloc(bytes);
-}
-
-static void release(const ps_host *host, void *memory)
-{
-    (void)host;
-    free(memory);
-}
 
 static int compare(const void *a, const void *b)
 {
@@ -43,7 +31,6 @@ static ps_key_entry *sort(ps_key_entry *entries, ps_key_entry *spare, size_t n)
     return entries;
 }
 
-static const ps_host host = {.size = sizeof host, .allocate = allocate, .release = release};
 static const ps_cells cells = {.size = sizeof cells, .sort = sort};
 
 static float light_at(ps_vec3 position)
@@ -53,6 +40,7 @@ static float light_at(ps_vec3 position)
 
 /* A floor of 4x4, lit more and more along x. */
 struct floor {
+    struct bare_host bare;
     ps_vec3 positions[COUNT], normals[COUNT];
     float lengths[COUNT];
     ps_rgb irradiance[COUNT], sky[COUNT];
@@ -65,6 +53,7 @@ static int make_floor(void **state)
     struct random random = {17};
     if (!floor)
         return -1;
+    bare_host_create(&floor->bare, 1);
     for (size_t i = 0; i < COUNT; i++) {
         ps_vec3 position = {4 * random_unit(&random), 4 * random_unit(&random), 0};
         floor->positions[i] = position;
@@ -74,7 +63,7 @@ static int make_floor(void **state)
         floor->sky[i] = (ps_rgb){0, 0, light_at(position)};
     }
     floor->surfels = (struct surfels){
-        .host = &host,
+        .host = &floor->bare.host,
         .extension = &cells,
         .count = COUNT,
         .positions = floor->positions,
@@ -92,9 +81,12 @@ static int make_floor(void **state)
 static int free_floor(void **state)
 {
     struct floor *floor = *state;
-    free(floor->surfels.cells);
+    const ps_host *host = &floor->bare.host;
+    host->release(host, floor->surfels.cells);
+    int leaks = floor->bare.live_allocations;
+    bare_host_release(&floor->bare);
     free(floor);
-    return 0;
+    return leaks;
 }
 
 static struct gather_landing landing_at(ps_vec3 position, ps_vec3 normal, float length,

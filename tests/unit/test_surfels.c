@@ -1,30 +1,16 @@
 /* test_surfels.c: the light of surfels by splats, corrected by paths. */
 #include "../../plugins/estimator/gather/surfels.h"
 
+#include "support/one_strategy.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #define COUNT (8 * SURFELS_GROUP - 10)
 
-static void *allocate(const ps_host *host, size_t bytes, const char *what)
-{
-    (void)host;
-    (void)what;
-    return malloc(bytes);
-}
-
-static void release(const ps_host *host, void *memory)
-{
-    (void)host;
-    free(memory);
-}
-
-static const ps_host host = {.size = sizeof host, .allocate = allocate, .release = release};
 static ps_rgb splatted[COUNT], traced[COUNT], half[COUNT];
 
 /* Noise of paths, the same each time: many find nothing, and some much. */
@@ -48,8 +34,12 @@ static void set(float red, float green, float blue)
 
 static void correct(void)
 {
-    struct surfels surfels = {.host = &host, .count = COUNT, .irradiance = splatted};
+    struct bare_host bare;
+    bare_host_create(&bare, 1);
+    struct surfels surfels = {.host = &bare.host, .count = COUNT, .irradiance = splatted};
     assert_int_equal(surfels_correct(&surfels, traced, half), PS_OK);
+    assert_int_equal(bare.live_allocations, 0);
+    bare_host_release(&bare);
 }
 
 static ps_rgb sum(const ps_rgb *light, size_t first, size_t n)
