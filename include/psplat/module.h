@@ -67,8 +67,8 @@ typedef struct ps_descriptor {
     const ps_param *params;
     uint32_t param_count;
     uint32_t param_size; /* sizeof(ps_param) as the plugin was built */
-    uint64_t
-        state_size; /* bytes of state that the core allocates, zeroed, and fills from `params` */
+    /* Bytes of state that the core allocates, zeroed, and fills from `params`. */
+    uint64_t state_size;
 
     /* Checks what no table can, and prepares what follows from the parameters. Main thread,
      * once, before any other callback and before the first pass: the host's ray queries,

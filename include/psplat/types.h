@@ -175,10 +175,10 @@ typedef struct ps_light_sample {
                           angle, which no other direction meets */
     ps_vec3 normal;    /* of the light's surface there; 0 where it has none */
     float probability; /* by which the light was chosen */
-    ps_rgb
-        irradiance; /* across the direction, W/m^2: what the sample stands for, both chances divided
-                          out (see ps_host.sample_light). Times the receiver's cosine it is an
-                          estimate of the irradiance of all lights */
+    /* Across the direction, W/m^2: what the sample stands for, both chances divided out (see
+     * ps_host.sample_light). Times the receiver's cosine it is an estimate of the irradiance of all
+     * lights. */
+    ps_rgb irradiance;
     uint32_t light; /* its index */
 } ps_light_sample;
 

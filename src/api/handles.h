@@ -22,8 +22,8 @@ struct psplat_scene {
     struct scene scene;
     struct trace *trace; /* over it, which all renders share */
     struct load_times times;
-    struct processes
-        *processes; /* that share its renders; NULL: none do, or it was not loaded yet */
+    /* That share its renders; NULL: none do, or it was not loaded yet. */
+    struct processes *processes;
 };
 
 struct psplat_picture {

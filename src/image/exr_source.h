@@ -23,8 +23,8 @@ struct exr_source {
     struct exr_facts facts;
     exr_decode_pipeline_t decoder;
     bool decoding; /* the decoder has been initialised */
-    float
-        *spare; /* where channels go that are not wanted: the library crashes if told to skip one */
+    /* Where channels go that are not wanted: the library crashes if told to skip one. */
+    float *spare;
     size_t spare_count;
 };
 

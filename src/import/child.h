@@ -11,8 +11,8 @@
 #include <stdbool.h>
 
 struct child_limits {
-    double
-        bytes; /* of memory, beside what the caller has; infinite, or under sanitizers: no limit */
+    /* Of memory, beside what the caller has; infinite, or under sanitizers: no limit. */
+    double bytes;
     unsigned seconds; /* of processor time; child_extend_time adds to it */
 };
 

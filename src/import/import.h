@@ -31,8 +31,8 @@ struct mesh_request {
      * flat. */
     double smooth_angle;
     struct affine placement; /* applied last */
-    unsigned
-        seconds; /* of processor time beyond what the files' size allows; 0: as many as usual */
+    /* Of processor time beyond what the files' size allows; 0: as many as usual. */
+    unsigned seconds;
     struct origin origin;
 };
 

@@ -25,8 +25,8 @@ struct obj_filling {
     const struct obj *obj;
     struct joint *joints;
     size_t joint_count, joint_capacity;
-    uint32_t
-        *newest; /* for each place its newest joint; it counts where that joint is of the place */
+    /* For each place its newest joint; it counts where that joint is of the place. */
+    uint32_t *newest;
     struct smooth_sum *sums;
     size_t sum_count, sum_capacity;
     uint32_t *first_sums; /* for each place; NULL: there are no smoothing groups */

@@ -15,8 +15,8 @@
 #define CAUSTIC_LANDINGS 1024 /* that are kept, at most */
 
 struct caustics {
-    const ps_vec3
-        *landings; /* borrowed; where photons land that met mirrors, glass and gloss alone */
+    /* Borrowed; where photons land that met mirrors, glass and gloss alone. */
+    const ps_vec3 *landings;
     size_t count;
     float scale; /* of the distance to the k-th: caustics_scale() */
 };

@@ -12,8 +12,8 @@
 #include <psplat/types.h>
 
 struct splat {
-    ps_bundle
-        bundle; /* a splat whose radius is 0 lights nothing; far_depth >= 0 until cut to a map */
+    /* A splat whose radius is 0 lights nothing; far_depth >= 0 until cut to a map. */
+    ps_bundle bundle;
     float near_depth; /* relative to the centre; <= 0 */
     /* Of full bundles: where the photon's tangent plane, parallel to the start plane, crosses the
      * axis; each pixel takes as much of the disc around its own ray as bandwidth.h says, between

@@ -28,8 +28,8 @@
 #define POV_MOST_FILES 256                          /* different ones */
 
 struct pov_options {
-    const char
-        *folder; /* the only one to read from (base/input_file.h), but for `system`; or NULL */
+    /* The only one to read from (base/input_file.h), but for `system`; or NULL. */
+    const char *folder;
     const char *const *libraries; /* folders where #include looks too */
     size_t library_count;
     const char *system;       /* the last of them, which is always allowed; or NULL */

@@ -48,8 +48,8 @@ struct render {
     struct shadow_maps *shadow_maps; /* for the direct light of the picture; NULL: shadow rays */
     struct gbuffer gbuffer;
     struct film film;
-    struct film_sum
-        *sum; /* of the passes; NULL where there is one pass, which the film itself holds */
+    /* Of the passes; NULL where there is one pass, which the film itself holds. */
+    struct film_sum *sum;
     struct film_sum own_sum; /* where the caller has none; owned */
     bool unfinished; /* the film holds a pass without its indirect light, or without smooth edges */
     double dark_pixels;   /* of the last picture: without weight */
@@ -67,8 +67,8 @@ struct render {
     bool splatting; /* onto pixels in this pass */
     struct gathered_light gathered_light;
     uint32_t gather_interleave; /* over so many pixels across and down it is averaged */
-    bool
-        counts_splats; /* in place of the filter: tiles' weights count the splats that light them */
+    /* In place of the filter: tiles' weights count the splats that light them. */
+    bool counts_splats;
     ps_pass pass;
     float jitter[2]; /* where in its pixels the pass looks */
     struct strategy_host hosts[PS_KINDS + 1];

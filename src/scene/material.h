@@ -57,9 +57,8 @@ struct component {
     float share;
     enum component_sharing sharing;
     struct pigment diffuse; /* diffuse, glossy: reflectance */
-    struct pigment
-        specular; /* reflector, glossy: reflectance at normal incidence; dielectric: tint of
-                                 what passes */
+    /* Reflector, glossy: reflectance at normal incidence; dielectric: tint of what passes. */
+    struct pigment specular;
     struct pigment roughness; /* reflector, glossy */
     bool constant;            /* reflector: as much at every angle */
     float ior;                /* dielectric */

@@ -79,8 +79,8 @@ struct height_samples {
 struct shape_surroundings {
     ps_vec3 center; /* plane without an extent: bounding sphere of the other shapes, in the space */
     float radius;   /* where the shape will be; 0: there are none */
-    const struct box
-        *box; /* plane without a distance: around the other objects, there; NULL: none */
+    /* Plane without a distance: around the other objects, there; NULL: none. */
+    const struct box *box;
     const struct mesh_description *meshes; /* objects' `mesh` are indices into it */
     const struct height_samples *heights;  /* height field: of the object's texture */
 };

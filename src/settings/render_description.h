@@ -36,8 +36,8 @@ struct render_description {
     int64_t seed;
     int64_t light_samples; /* shadow rays for each area light, pixel and pass */
     int64_t light_choices; /* lights that a point asks at the most */
-    int32_t
-        discontinuity_buffer; /* 1: pixels take in what shadow rays of those around them found */
+    /* 1: pixels take in what shadow rays of those around them found. */
+    int32_t discontinuity_buffer;
     int64_t aa_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */
     int32_t direct;     /* enum direct_light */
     int64_t direct_resolution;

@@ -30,8 +30,8 @@ struct interleaved_tile {
     float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS], normal_z[PS_TILE_PIXELS];
     float irradiance_r[PS_TILE_PIXELS], irradiance_g[PS_TILE_PIXELS], irradiance_b[PS_TILE_PIXELS];
     float weight[PS_TILE_PIXELS];
-    struct geometric_normals
-        *geometric; /* the interleaved pixels' own; NULL: the normals are those of the surfaces */
+    /* The interleaved pixels' own; NULL: the normals are those of the surfaces. */
+    struct geometric_normals *geometric;
     struct bounds blocks;
 };
 

@@ -23,8 +23,8 @@ struct splatter_settings {
     struct kernel_profile profile;
     struct kernel_variant kernel;
     struct workers *workers;
-    size_t
-        batch; /* at most so many splats at a time; the budget for depth maps may ask for fewer */
+    /* At most so many splats at a time; the budget for depth maps may ask for fewer. */
+    size_t batch;
 };
 
 /* How many light paths a pass has: they share the subsets of pixels out. */

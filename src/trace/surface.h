@@ -12,8 +12,8 @@ struct intersection {
     uint32_t shape;    /* of the world, or within the instance's group */
     uint32_t triangle;
     float u, v; /* barycentric, of the second and third corner */
-    ps_vec3
-        normal; /* by the triangle's winding, or outward; any length, in the shape's own space */
+    /* By the triangle's winding, or outward; any length, in the shape's own space. */
+    ps_vec3 normal;
     float distance;
 };
 

@@ -46,8 +46,8 @@ struct refinement {
 /* What links of an element go by. */
 struct brightness {
     float leaves; /* the largest radiosity of its parts, W/m^2, about */
-    float
-        needs; /* how much less than others it may be off by: 1 where it is as bright as the mean */
+    /* How much less than others it may be off by: 1 where it is as bright as the mean. */
+    float needs;
 };
 
 static struct brightness *brightness(const struct refinement *work, size_t index)

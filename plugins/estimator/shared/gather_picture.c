@@ -12,8 +12,8 @@ struct work {
     /* What the first round found in each tile that is there and in those around, by `slots`, of all
      * tiles of the picture. */
     struct gather_first *first_rounds;
-    struct tile_pilot
-        *pilots; /* of the picture's tiles; of those that were not looked at, without points */
+    /* Of the picture's tiles; of those that were not looked at, without points. */
+    struct tile_pilot *pilots;
     uint32_t *slots;
 };
 

@@ -5,11 +5,13 @@
  *
  * The first round's rays, c of them with the cosine's density p_c, are much noisier than the g
  * guided ones where light comes from a small part of the hemisphere. Both are combined by the
- * balance heuristic (Veach and Guibas 1995): with a density q, rays by the cosine have the weight c
- * p_c / (c p_c + g q) and guided ones g q / (c p_c + g q). For each direction the weights add up to
- * 1 whatever q is, so q may be smoother than the density that was sampled (guide_smooth_ratio()).
- * Where there are guides of several rounds, this is done with each, and the mean over all guided
- * rays is taken.
+ * balance heuristic (Veach and Guibas 1995), with a density q:
+ *
+ *     w_cosine = c p_c / (c p_c + g q),   w_guided = g q / (c p_c + g q)
+ *
+ * For each direction the weights add up to 1 whatever q is, so q may be smoother than the density
+ * that was sampled (guide_smooth_ratio()). Where there are guides of several rounds, this is done
+ * with each, and the mean over all guided rays is taken.
  *
  * Neither q nor g may depend on the rays that they weigh, or bright rays count for too little. So
  * the points of a group are two halves, and each half is weighed by the guide and the number of
@@ -31,9 +33,10 @@ enum { GATHER_FIRST = 4 };
 
 /* What a cache has of the irradiance where a ray landed, W/m^2. */
 struct cached_irradiance {
-    ps_rgb
-        indirect; /* light that met other surfaces before; 0 but with setting->cache_has_indirect */
-    ps_rgb sky;   /* that of PS_LIGHTS_SOFT which met none; 0 but with setting->cache_has_sky */
+    /* Of light that met other surfaces before; 0 but with setting->cache_has_indirect. */
+    ps_rgb indirect;
+    /* Of light of PS_LIGHTS_SOFT that met none; 0 but with setting->cache_has_sky. */
+    ps_rgb sky;
 };
 
 /* Where a ray landed. */
@@ -44,8 +47,9 @@ struct gather_landing {
     uint32_t path;    /* whose ray it is: known[path] is what the cache knows */
 };
 
-/* Looks up what the cache knows for up to PS_TILE_PIXELS landings. is_known[path] is false where it
- * knows nothing, or where the ray is too short for it: the path goes on. Any thread. */
+/* Looks up what the cache knows for up to PS_TILE_PIXELS landings, and sets is_known[path] where it
+ * does. It was false, and stays so where the cache knows nothing or the ray is too short for it:
+ * the path goes on. Any thread. */
 typedef void (*gather_lookup)(const void *cache, const struct gather_landing *landings, size_t n,
                               struct cached_irradiance *known, bool *is_known);
 
