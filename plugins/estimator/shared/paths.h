@@ -154,6 +154,11 @@ static inline void paths_add_emission(const struct paths_setting *setting,
                                       const struct paths_segment *segment, ps_rgb *sums)
 {
     ps_rgb radiance[PS_TILE_PIXELS];
+    uint8_t any_shines = 0;
+    for (size_t i = 0; i < paths->count; i++)
+        any_shines |= paths->shines[i];
+    if (!any_shines)
+        return;
     setting->host->emitted_radiance(setting->host, paths->rays, segment->hits, paths->pdfs,
                                     paths->count, radiance);
     for (size_t i = 0; i < paths->count; i++)
