@@ -44,7 +44,7 @@ static void find_sights(void *user, uint64_t index, uint32_t worker)
     camera_find_sights(&work->bdpt, (uint32_t)index);
 }
 
-static void find_allocation(void *user, uint64_t index, uint32_t worker)
+static void find_shares(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
@@ -139,7 +139,7 @@ static ps_result trace_all(struct work *work)
     ps_result result = PS_OK;
     host->parallel_for(host, tiles, find_sights, work);
     camera_find_jitter(&work->bdpt);
-    host->parallel_for(host, tiles, find_allocation, work);
+    host->parallel_for(host, tiles, find_shares, work);
     for (uint32_t first = 0; first < tiles && result == PS_OK; first += TILE_BATCH) {
         uint32_t count = tiles - first < TILE_BATCH ? tiles - first : TILE_BATCH;
         work->first_tile = first;

@@ -44,7 +44,7 @@
 struct pass_cache {
     bool is_taken;
     uint32_t pass;
-    bool has_surfels; /* of surfels, if there are any */
+    bool has_surfels; /* they were looked for, and there may be none */
     struct surfels surfels;
     struct gather_allocation allocation;
 };
@@ -110,13 +110,13 @@ static ps_result collect_specular(struct splatting *splatting, const ps_photon *
     const ps_host *host = splatting->host;
     if (splatting->specular_count + n > splatting->specular_capacity) {
         size_t capacity = 2 * (splatting->specular_count + n);
-        ps_photon *kept = host->allocate(host, capacity * sizeof *kept, "specular photons");
-        if (!kept)
+        ps_photon *larger = host->allocate(host, capacity * sizeof *larger, "specular photons");
+        if (!larger)
             return PS_ERROR_MEMORY;
         if (splatting->specular_count > 0)
-            memcpy(kept, splatting->specular, splatting->specular_count * sizeof *kept);
+            memcpy(larger, splatting->specular, splatting->specular_count * sizeof *larger);
         host->release(host, splatting->specular);
-        splatting->specular = kept;
+        splatting->specular = larger;
         splatting->specular_capacity = capacity;
     }
     splatting->specular_count +=

@@ -79,7 +79,7 @@ ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_geometric_normals(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
 
-/* What a buffer has besides tiles, direct and emitted light, and stochastic. */
+/* What a buffer has besides tiles, direct and emitted light, and `stochastic`. */
 struct gbuffer_parts {
     bool discontinuity_buffer, direct_half, hard, glossy, geometric_normals, radiance;
 };

@@ -4,7 +4,7 @@
  * A kernel blurs what is smaller than itself: light that comes from nearer than a radius, along
  * creases and under what stands close to a wall. There splats would have to be as small as the
  * gaps, and would be so noisy that they dominate the error. So what lights throw onto surfaces
- * nearby is found by short rays, cosine- distributed (after Kollig and Keller 2006, "Illumination
+ * nearby is found by short rays, cosine-distributed (after Kollig and Keller 2006, "Illumination
  * in the presence of weak singularities", who make up for the clamped light of near virtual
  * lights), and splats leave it out, all of it at no distance, and less and less of it further away
  * (placement/gather_share.h). The shares add up to 1, so nothing counts twice. Light that other

@@ -4,7 +4,7 @@
 
 #include "images.h"
 
-/* Fills image->sum in, from the bodies, and image->error. Runs on all workers. */
+/* Fills image->sum in, from image->clamped, and image->error. Runs on all workers. */
 void regression_add_bands(struct denoised_images *images);
 
 #endif

@@ -94,7 +94,7 @@ struct step {
     const struct blockers *blockers;
 };
 
-static void find_allocation(void *user, uint64_t slice, uint32_t worker)
+static void find_shares(void *user, uint64_t slice, uint32_t worker)
 {
     (void)worker;
     const struct step *step = user;
@@ -184,7 +184,7 @@ ps_result light_grid_propagate(struct light_grid *light, const struct blockers *
     for (uint64_t i = 0; i < steps && power_of(light) > least * first; i++) {
         if (host->cancelled(host))
             return PS_CANCELLED;
-        host->parallel_for(host, light->grid.across, find_allocation, &step);
+        host->parallel_for(host, light->grid.across, find_shares, &step);
         host->parallel_for(host, light->grid.across, step_slice, &step);
         struct sh_rgb *spare = light->now;
         light->now = light->next;

@@ -161,6 +161,7 @@ static void start_paths(const struct gather *gather, struct batch *batch, struct
                            segment->numbers);
     paths->count = 0;
     for (uint32_t k = 0; k < points->count; k++) {
+        /* Not a copy: GCC 12 puts one together on the stack, and waits for that to load it. */
         const ps_vec3 *normal = &points->normals[k];
         const struct guide *guide = &gather->guides[gather->guide_of[batch->of[k]]];
         struct guide_sample sample =

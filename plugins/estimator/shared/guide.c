@@ -154,7 +154,6 @@ void guide_update(struct guide *guide)
         guide->ring_ends[ring] = total;
     }
     guide->scale = scale_of(total);
-    guide->ready = guide->scale > 0.0f;
 }
 
 /* --- directions --- */
@@ -225,7 +224,7 @@ static struct guide_sample by_light(const struct guide *guide, ps_vec3 normal, f
 
 struct guide_sample guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b)
 {
-    if (!guide->ready)
+    if (!(guide->scale > 0.0f))
         return by_cosine(guide, normal, a, b);
     struct guide_sample sample =
         a < BY_COSINE ? by_cosine(guide, normal, a / BY_COSINE, b)

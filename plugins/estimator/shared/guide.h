@@ -24,12 +24,12 @@ enum { GUIDE_RINGS = 8, GUIDE_SECTORS = 16, GUIDE_BINS = GUIDE_RINGS * GUIDE_SEC
 typedef float guide_bins[GUIDE_RINGS][GUIDE_SECTORS];
 
 struct guide {
-    ps_vec3 normal, u, v;         /* a frame, of ps_frame */
-    guide_bins found[2];          /* sums of the light that rays of either half found */
-    int ready;                    /* whether the rest is set */
+    ps_vec3 normal, u, v; /* a frame, of ps_frame */
+    guide_bins found[2];  /* sums of the light that rays of either half found */
+    /* Of `known` and `smooth`; 0: nothing was found, and what follows is not set. */
+    float scale, smooth_scale[2];
     guide_bins known;             /* both, smoothed: the density, but for `scale` */
     guide_bins smooth[2];         /* each, smoothed twice */
-    float scale, smooth_scale[2]; /* those of `known` and `smooth`; 0: nothing was found */
     float ring_ends[GUIDE_RINGS]; /* cumulative */
     guide_bins sector_ends;
 };
