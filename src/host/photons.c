@@ -117,14 +117,19 @@ static void place(struct render *render, struct splatter *onto, struct placement
     statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
 }
 
-void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
+static struct caustics caustics_of(const struct render *render)
 {
     const struct photon_stream *stream = &render->photons;
-    const struct caustics caustics = {
+    return (struct caustics){
         .landings = stream->caustics,
         .count = stream->caustic_count,
         .scale = caustics_scale(stream->photons_per_caustic, render->pass.number),
     };
+}
+
+void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
+{
+    const struct caustics caustics = caustics_of(render);
     struct placement_scene scene = place_scene(render);
     scene.caustics = &caustics;
     scene.interleave = render->has_splatter ? render->splatter.lit.interleave : 1;
@@ -132,12 +137,15 @@ void photons_place(struct render *render, const ps_photon *photons, size_t n, st
     place(render, render->splatting ? &render->splatter : NULL, scene, photons, n, splats);
 }
 
-/* For points, whose light is averaged before it is seen: no pixel's size limits the radius, no
- * light from nearby is left to gather rays, and caustics are as wide as other light. */
+/* For points, whose light is averaged before it is seen: no pixel's size limits the radius, and no
+ * light from nearby is left to gather rays. */
 static void place_for_points(struct render *render, const ps_photon *photons, size_t n,
                              struct splat *splats)
 {
-    place(render, &render->points, place_scene(render), photons, n, splats);
+    const struct caustics caustics = caustics_of(render);
+    struct placement_scene scene = place_scene(render);
+    scene.caustics = &caustics;
+    place(render, &render->points, scene, photons, n, splats);
 }
 
 /* --- services

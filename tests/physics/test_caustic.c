@@ -16,6 +16,9 @@
  *
  * The focus of a glass ball is as bright with the automatic radius as with a tiny one and many
  * photons.
+ *
+ * A ceiling above a ball that stands in its own caustic, which rays reach through the ball alone:
+ * its light is right, and without grain.
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"
@@ -336,11 +339,51 @@ static void test_window(void **state)
     expect_agreement("sunlit window, gather / splat", estimate, expected, 0.03);
 }
 
+/* --- ceiling -------------------------------------------------------------------------------- */
+
+static const char ceiling[] =
+    "psd: 1\n"
+    "camera: {location: [0, 1.9, 0], look_at: [0, 2, 0], up: [0, 0, -1],\n"
+    "         projection: orthographic, width: 2}\n"
+    "image: {width: 64, height: 64}\n"
+    "materials: {wall: {diffuse: 0.6}, glass: {dielectric: {ior: 1.5}}}\n"
+    "lights: [{rectangle: {corners: [[-0.2, 1.95, -0.2], [0.2, 1.95, -0.2], [0.2, 1.95, 0.2]],\n"
+    "                      radiance: 10, visible: no}}]\n"
+    "objects:\n"
+    "  - quad: {corners: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], material: wall}\n"
+    "  - quad: {corners: [[-2, 2, 2], [-2, 2, -2], [2, 2, -2], [2, 2, 2]], material: wall}\n"
+    "  - sphere: {center: [0, 0.5, 0], radius: 0.5, material: glass, camera: no}\n"
+    "render: {seed: %d, passes: 1, aa_samples: 1}\n";
+
+static void test_ceiling(void **state)
+{
+    (void)state;
+    static const char *const gather[] = {"estimator=gather:samples=16,surfels=256", "bounces=all",
+                                         NULL};
+    static const char *const truth[] = {"estimator=bdpt:samples=32", "bounces=all", NULL};
+    double expected = estimate_channel(ceiling, truth, "indirect.G", 2).mean, mean = 0, most = 0;
+    for (int seed = 1; seed <= SEEDS; seed++) {
+        char text[2048];
+        snprintf(text, sizeof text, ceiling, seed);
+        struct rendering rendering = render_text(text, 2, gather);
+        const float *light = image_channel(&rendering.image, "indirect.G");
+        mean += mean_of_all(&rendering.image, "indirect.G") / SEEDS;
+        for (size_t i = 0; i < (size_t)rendering.image.width * rendering.image.height; i++)
+            most = fmax(most, light[i]);
+        rendering_release(&rendering);
+    }
+    print_message("ceiling: %.3f of the light, %.1f times in the brightest pixel\n",
+                  mean / expected, most / expected);
+    assert_true(fabs(mean / expected - 1) < 0.03);
+    assert_true(most < 8 * expected);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_window),
         cmocka_unit_test(test_focus),
+        cmocka_unit_test(test_ceiling),
         SLOW_TEST(test_mirror),
         cmocka_unit_test(test_mirror_and_point_light),
         cmocka_unit_test(test_absorbing_plate),

@@ -87,7 +87,7 @@ static double mean_by(double roughness, const char *wall, const char *estimator)
     double mean = 0;
     for (int seed = 1; seed <= SEEDS; seed++) {
         struct rendering rendering =
-            render(wide, roughness, wall, 2, seed, estimator, "injection=photon:count=20000");
+            render(wide, roughness, wall, 2, seed, estimator, "injection=photon:count=200000");
         mean += mean_of_all(&rendering.image, "indirect.G") / SEEDS;
         rendering_release(&rendering);
     }

@@ -93,7 +93,11 @@ static struct gather_landing landing_at(ps_vec3 position, ps_vec3 normal, float 
                                         struct random *random)
 {
     return (struct gather_landing){
-        position, normal, length, {random_unit(random), random_unit(random)}, 0};
+        .position = position,
+        .normal = normal,
+        .length = length,
+        .numbers = {random_unit(random), random_unit(random)},
+    };
 }
 
 /* On average over the random numbers, what lies around a point is what is there, where light is
@@ -159,6 +163,30 @@ static void test_leaves_short_rays_to_paths(void **state)
     assert_false(is_known_at(floor, inside, up, 0.0f));
 }
 
+/* How far from the place of a landing there is light that it may get. */
+static float reach(const struct floor *floor, bool is_focused)
+{
+    struct random random = {31};
+    const ps_vec3 position = {1.7f, 2.2f, 0};
+    float most = 0.0f;
+    for (int i = 0; i < 1000; i++) {
+        struct gather_landing landing = landing_at(position, up, 2.0f * LENGTH, &random);
+        struct cached_irradiance known;
+        bool is_known = false;
+        landing.is_focused = is_focused;
+        surfel_table_lookup(&floor->surfels, &landing, 1, &known, &is_known);
+        assert_true(is_known);
+        most = ps_max(most, fabsf(known.indirect.r - light_at(position)));
+    }
+    return most;
+}
+
+static void test_focused_light_stays_narrow(void **state)
+{
+    const struct floor *floor = *state;
+    assert_true(reach(floor, true) < 0.5f * reach(floor, false));
+}
+
 /* Each landing has its own answer, in whatever company, by its own path. */
 static void test_answers_each_by_itself(void **state)
 {
@@ -194,6 +222,7 @@ int main(void)
         cmocka_unit_test(test_finds_the_light_of_a_place),
         cmocka_unit_test(test_knows_nothing_elsewhere),
         cmocka_unit_test(test_leaves_short_rays_to_paths),
+        cmocka_unit_test(test_focused_light_stays_narrow),
         cmocka_unit_test(test_answers_each_by_itself),
     };
     return cmocka_run_group_tests(tests, make_floor, free_floor);

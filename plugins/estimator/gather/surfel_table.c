@@ -227,7 +227,8 @@ static void begin_queries(const struct surfels *surfels, const struct gather_lan
         struct query *query = &queries->all[i];
         query->position = cube_position_of(surfels, landing->position, landing->normal);
         query->moved = jitter(landing->normal, landing->numbers);
-        query->level = level_of(surfels, BY_LENGTH * landing->length);
+        float length = surfel_length(landing->length, landing->is_focused);
+        query->level = level_of(surfels, BY_LENGTH * length);
         query->widest = halvings(surfels->largest / (MOST_BY_LENGTH * landing->length), LEVELS);
         query->path = landing->path;
         queries->open[queries->count] = i;

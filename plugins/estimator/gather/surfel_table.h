@@ -3,8 +3,9 @@
  * A hash table holds the mean of the surfels in each cube of space, with surfaces of like normal
  * (after Binder et al. 2019, "Massively parallel path space filtering"). Cubes have a side in
  * proportion to the length of the ray, as wide as neighbouring rays are apart there, in powers of
- * two; where one has too few surfels, the next larger ones are looked up. The lookup point is
- * jittered within a cube: steps between cubes become noise.
+ * two; where one has too few surfels, the next larger ones are looked up. What came by mirrors or
+ * glass may be focused, and is looked up in smaller ones first. The lookup point is jittered within
+ * a cube: steps between cubes become noise.
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H
 #define PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H

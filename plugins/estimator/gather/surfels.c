@@ -1,4 +1,5 @@
 #include "surfels.h"
+#include "../shared/paths.h"
 #include "../shared/sampled_tiles.h"
 
 #include <stdbool.h>
@@ -18,7 +19,61 @@ struct finding {
 
 #define NO_PLACE UINT32_MAX
 
-/* One ray from each of some pixels of a tile, chosen by lot. Lengths of 0 are no surfels. */
+/* One ray from each of some points of a tile, chosen by lot. */
+static void start_rays(const struct finding *work, const ps_points *points, const uint64_t *indices,
+                       ps_points *chosen, struct paths *paths, struct paths_segment *segment)
+{
+    const ps_host *host = work->surfels->host;
+    host->samples(host, PS_STREAM_PLUGIN, 0, indices, work->rays, segment->numbers);
+    paths->count = 0;
+    chosen->count = work->rays;
+    for (uint32_t i = 0; i < work->rays; i++) {
+        const float *numbers = segment->numbers[i];
+        size_t point = (size_t)(numbers[2] * (float)points->count);
+        ps_vec3 position = points->positions[point], normal = points->normals[point];
+        ps_vec3 direction = ps_cosine_direction(normal, numbers[0], numbers[1]);
+        chosen->positions[i] = position;
+        chosen->normals[i] = normal;
+        paths_add(paths, i,
+                  ps_leave_surface(position, normal, direction, work->pass->surface_offset), PS_PI);
+    }
+}
+
+/* Whether rays that lie side by side still do after a surface of that roughness that scatters like
+ * this: a mirror, glass or smooth gloss. */
+static bool is_sharp(const ps_bsdf_sample *scattered, float roughness)
+{
+    return scattered->lobe == PS_SPECULAR ||
+           (scattered->lobe == PS_GLOSSY && roughness < PS_ROUGH_GLOSS);
+}
+
+/* Surfels where rays are to be scattered widely; the others go on. */
+static void land_rays(const struct finding *work, const struct paths_setting *setting, size_t first,
+                      struct paths *paths, struct paths_segment *segment)
+{
+    struct surfels *surfels = work->surfels;
+    ps_bsdf_sample scattered[PS_TILE_PIXELS];
+    size_t alive = 0;
+    setting->host->sample_bsdf(setting->host, PS_FROM_CAMERA, paths->rays, segment->hits,
+                               (const float(*)[4])segment->numbers, paths->count, scattered);
+    for (size_t i = 0; i < paths->count; i++) {
+        const ps_hit *hit = &segment->hits[i];
+        size_t place = first + paths->pixels[i];
+        if (is_sharp(&scattered[i], hit->roughness)) {
+            if (paths_scatter(setting, &scattered[i], segment, paths, i))
+                paths_move(paths, i, alive++);
+        } else if (ps_rgb_maximum(hit->albedo) > 0.0f) {
+            surfels->positions[place] = hit->position;
+            surfels->normals[place] = hit->normal;
+            surfels->lengths[place] =
+                surfel_length(paths->lengths[i] + hit->distance, paths->lengths[i] > 0.0f);
+        }
+    }
+    paths->count = alive;
+}
+
+/* Surfels where rays from a tile land, some of them by way of mirrors, glass and smooth gloss.
+ * Lengths of 0 are no surfels. */
 static void find_in_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
@@ -27,13 +82,13 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
     const ps_host *host = surfels->host;
     if (work->places[index] == NO_PLACE)
         return;
+    const struct paths_setting setting = {.host = host, .pass = work->pass};
     size_t first = (size_t)work->places[index] * work->rays;
     ps_tile tile;
-    ps_points points;
-    ps_ray rays[PS_TILE_PIXELS];
-    ps_hit hits[PS_TILE_PIXELS];
+    ps_points points, chosen;
     uint64_t indices[PS_TILE_PIXELS];
-    float numbers[PS_TILE_PIXELS][4], spreads[PS_TILE_PIXELS];
+    struct paths paths;
+    struct paths_segment segment;
     memset(surfels->lengths + first, 0, work->rays * sizeof *surfels->lengths);
     host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
     ps_collect_points(&tile, &points);
@@ -41,22 +96,14 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
         return;
     for (uint32_t i = 0; i < work->rays; i++)
         indices[i] = (index << 32) + (uint64_t)work->pass->number * work->rays + i;
-    host->samples(host, PS_STREAM_PLUGIN, 0, indices, work->rays, numbers);
-    for (uint32_t i = 0; i < work->rays; i++) {
-        size_t point = (size_t)(numbers[i][2] * (float)points.count);
-        ps_vec3 normal = points.normals[point];
-        rays[i] = ps_leave_surface(points.positions[point], normal,
-                                   ps_cosine_direction(normal, numbers[i][0], numbers[i][1]),
-                                   work->pass->surface_offset);
-        spreads[i] = PS_DIFFUSE_SPREAD;
-    }
-    host->intersect_cones(host, rays, spreads, work->rays, hits);
-    for (uint32_t i = 0; i < work->rays; i++) {
-        if (!(hits[i].distance < INFINITY) || !(ps_rgb_maximum(hits[i].albedo) > 0.0f))
-            continue;
-        surfels->positions[first + i] = hits[i].position;
-        surfels->normals[first + i] = hits[i].normal;
-        surfels->lengths[first + i] = hits[i].distance;
+    start_rays(work, &points, indices, &chosen, &paths, &segment);
+    for (uint32_t number = 1; paths.count > 0; number++) {
+        paths_intersect(&setting, &chosen, number, &paths, &segment);
+        paths_drop_lost(&paths, &segment);
+        paths_find_indices(indices, &paths, &segment);
+        host->samples(host, PS_STREAM_PLUGIN, number, segment.indices, paths.count,
+                      segment.numbers);
+        land_rays(work, &setting, first, &paths, &segment);
     }
 }
 

@@ -20,7 +20,7 @@ struct surfels {
     const ps_cells *extension; /* by which they are sorted */
     size_t count;
     ps_vec3 *positions, *normals;
-    float *lengths;     /* of the rays that found them, in scene units */
+    float *lengths;     /* of the rays that found them (surfel_length()), in scene units */
     ps_rgb *irradiance; /* W/m^2, of light that met other surfaces before; set by the caller */
     ps_rgb *sky;        /* of light straight from soft skies; NULL: lookups know none */
     /* The table's cubes begin at `origin`; `largest` is the side of the largest ones. */
@@ -63,6 +63,15 @@ static inline struct surfel_group surfels_group(const struct surfels *surfels, u
 ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const ps_rgb *half);
 
 void surfels_release(struct surfels *surfels);
+
+/* Curved mirrors and glass may focus rays: what lies around their ends is told as for rays of this
+ * part of their length. */
+#define SURFEL_FOCUS 0.25f
+
+static inline float surfel_length(float length, bool is_focused)
+{
+    return is_focused ? SURFEL_FOCUS * length : length;
+}
 
 /* Which way a surface faces: an axis, and the side, 0 to 5. */
 static inline uint32_t surfel_facing(ps_vec3 n)

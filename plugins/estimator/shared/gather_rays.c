@@ -195,7 +195,13 @@ static void look_up(const struct gather_setting *setting, const struct batch *ba
         if (!marked[i] || (counted && paths->bounces[i] > 0))
             continue;
         landings[n++] = (struct gather_landing){
-            hit->position, hit->normal, hit->distance, {numbers[0], numbers[1]}, i};
+            .position = hit->position,
+            .normal = hit->normal,
+            .length = paths->lengths[i] + hit->distance,
+            .is_focused = paths->lengths[i] > 0.0f,
+            .numbers = {numbers[0], numbers[1]},
+            .path = i,
+        };
     }
     if (setting->lookup && n > 0)
         setting->lookup(setting->cache, landings, n, known, is_known);

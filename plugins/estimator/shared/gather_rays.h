@@ -42,13 +42,14 @@ struct cached_irradiance {
 /* Where a ray landed. */
 struct gather_landing {
     ps_vec3 position, normal;
-    float length;     /* of the ray */
+    float length;     /* of its way since a diffuse surface */
+    bool is_focused;  /* perhaps: it came by mirrors, glass or gloss */
     float numbers[2]; /* random ones, of [0, 1) */
     uint32_t path;    /* whose ray it is: known[path] is what the cache knows */
 };
 
 /* Looks up what the cache knows for up to PS_TILE_PIXELS landings, and sets is_known[path] where it
- * does. It was false, and stays so where the cache knows nothing or the ray is too short for it:
+ * does. It was false, and stays so where the cache knows nothing or the way is too short for it:
  * the path goes on. Any thread. */
 typedef void (*gather_lookup)(const void *cache, const struct gather_landing *landings, size_t n,
                               struct cached_irradiance *known, bool *is_known);

@@ -48,6 +48,7 @@ struct paths {
     uint32_t chain[PS_TILE_PIXELS];   /* others since the last one */
     float pdfs[PS_TILE_PIXELS];       /* of the last scattering, where its lobe was glossy */
     float spreads[PS_TILE_PIXELS];    /* of the cone around the ray (ps_cone_spread) */
+    float lengths[PS_TILE_PIXELS];    /* of the way from the last diffuse surface to the ray */
     uint8_t shines[PS_TILE_PIXELS];   /* whether emission that is met counts */
     /* Whether all surfaces on the way have mirrored, refracted or shone by gloss, and one of them
      * is smoother than setting->caustics_below: what is found is a caustic, which somebody else
@@ -71,6 +72,7 @@ static inline void paths_move(struct paths *paths, size_t from, size_t to)
     paths->chain[to] = paths->chain[from];
     paths->pdfs[to] = paths->pdfs[from];
     paths->spreads[to] = paths->spreads[from];
+    paths->lengths[to] = paths->lengths[from];
     paths->shines[to] = paths->shines[from];
     paths->caustic[to] = paths->caustic[from];
 }
@@ -113,7 +115,7 @@ static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, fl
     paths->rays[i] = ray;
     paths->throughput[i] = (ps_rgb){throughput, throughput, throughput};
     paths->bounces[i] = paths->chain[i] = 0;
-    paths->pdfs[i] = 0.0f;
+    paths->pdfs[i] = paths->lengths[i] = 0.0f;
     paths->spreads[i] = PS_DIFFUSE_SPREAD;
     paths->shines[i] = paths->caustic[i] = 0;
 }
@@ -293,6 +295,8 @@ static inline int paths_scatter(const struct paths_setting *setting,
                                       scattered->direction, setting->pass->surface_offset);
     paths->shines[i] = scattered->lobe != PS_DIFFUSE && !paths->caustic[i];
     paths->pdfs[i] = scattered->lobe == PS_GLOSSY ? scattered->pdf : 0.0f;
+    paths->lengths[i] =
+        scattered->lobe == PS_DIFFUSE ? 0.0f : paths->lengths[i] + segment->hits[i].distance;
     if (scattered->lobe != PS_SPECULAR) /* a mirror keeps the cone */
         paths->spreads[i] = ps_cone_spread(scattered->pdf);
     return 1;
