@@ -346,6 +346,13 @@ struct ps_host {
     void (*direct_radiance_of)(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
                                const uint8_t *groups, uint32_t stream, uint32_t set,
                                const uint64_t *indices, size_t n, ps_rgb *radiance);
+
+    /* --- mirrors, glass and gloss --- */
+
+    /* Since 1.16: as intersect, for paths that end at a surface that is diffuse alone: a ray that
+     * meets one first, one without PS_HIT_SPECULAR, comes back as if it met nothing, which is
+     * quicker. [any thread] */
+    void (*intersect_specular)(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

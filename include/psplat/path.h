@@ -48,13 +48,11 @@ static inline uint8_t ps_gloss_after(uint8_t before, float roughness)
 /* The spread of a diffuse bounce, at its typical density 1 / pi: sqrt(pi / PS_CONES). */
 #define PS_DIFFUSE_SPREAD 0.0627f
 
-/* Traces n rays, and moves those that meet something to the front, with their hits; returns how
- * many. kept[i] >= i becomes the place that number i came from. Any thread. */
-static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, ps_hit *hits,
-                                   size_t *kept)
+/* Moves those of n rays that met something to the front, with their hits; returns how many. kept[i]
+ * >= i becomes the place that number i came from. */
+static inline size_t ps_keep_hits(ps_ray *rays, size_t n, ps_hit *hits, size_t *kept)
 {
     size_t met = 0;
-    host->intersect(host, rays, n, hits);
     for (size_t i = 0; i < n; i++) {
         if (!(hits[i].distance < INFINITY))
             continue;
@@ -63,6 +61,14 @@ static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, 
         hits[met++] = hits[i];
     }
     return met;
+}
+
+/* Traces n rays, and keeps those that meet something, as ps_keep_hits. Any thread. */
+static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, ps_hit *hits,
+                                   size_t *kept)
+{
+    host->intersect(host, rays, n, hits);
+    return ps_keep_hits(rays, n, hits, kept);
 }
 
 /* For an injection whose photons lie where lights shine, in prepare: says, once a render, that

@@ -188,14 +188,19 @@ static int leaves_photons(const struct state *state, const ps_pass *pass, const 
            ps_russian_roulette(weight, walk->numbers[2], arriving);
 }
 
-/* Traces the walks, and keeps those that meet something, moved to the front with their hits. */
+/* Traces the walks, all for caustics or none, and keeps those that meet something, moved to the
+ * front with their hits: for caustics, something that is not diffuse alone. */
 static size_t trace_walks(const ps_host *host, struct walk *walks, size_t n, ps_ray *rays,
                           ps_hit *hits)
 {
     for (size_t i = 0; i < n; i++)
         rays[i] = walks[i].ray;
     size_t kept[PS_PATH_CHUNK];
-    size_t met = ps_trace_kept(host, rays, n, hits, kept);
+    if (walks[0].caustic)
+        host->intersect_specular(host, rays, n, hits);
+    else
+        host->intersect(host, rays, n, hits);
+    size_t met = ps_keep_hits(rays, n, hits, kept);
     for (size_t i = 0; i < met; i++)
         walks[i] = walks[kept[i]];
     return met;

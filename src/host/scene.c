@@ -33,27 +33,48 @@ static void count_bad_ray(const ps_host *host)
     atomic_fetch_add(&render_of(host)->refused.rays[kind_of(host)], 1);
 }
 
-static void host_intersect_cones(const ps_host *host, const ps_ray *rays, const float *spreads,
-                                 size_t n, ps_hit *hits)
+static void intersect(const ps_host *host, bool specular_alone, const ps_ray *rays,
+                      const float *spreads, size_t n, ps_hit *hits)
 {
     const struct trace *trace = render_of(host)->trace;
-    if (are_rays(rays, n)) {
+    if (specular_alone)
+        trace_intersect_specular(trace, rays, n, hits);
+    else
         trace_intersect(trace, RAYS_INCOHERENT, rays, spreads, n, hits);
+}
+
+/* Rays that are no numbers meet nothing. */
+static void intersect_rays(const ps_host *host, bool specular_alone, const ps_ray *rays,
+                           const float *spreads, size_t n, ps_hit *hits)
+{
+    if (are_rays(rays, n)) {
+        intersect(host, specular_alone, rays, spreads, n, hits);
         return;
     }
     for (size_t i = 0; i < n; i++) {
         const float *spread = spreads ? &spreads[i] : NULL;
         hits[i] = (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
         if (is_ray(&rays[i]))
-            trace_intersect(trace, RAYS_INCOHERENT, &rays[i], spread, 1, &hits[i]);
+            intersect(host, specular_alone, &rays[i], spread, 1, &hits[i]);
         else
             count_bad_ray(host);
     }
 }
 
+static void host_intersect_cones(const ps_host *host, const ps_ray *rays, const float *spreads,
+                                 size_t n, ps_hit *hits)
+{
+    intersect_rays(host, false, rays, spreads, n, hits);
+}
+
 static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
 {
-    host_intersect_cones(host, rays, NULL, n, hits);
+    intersect_rays(host, false, rays, NULL, n, hits);
+}
+
+static void host_intersect_specular(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
+{
+    intersect_rays(host, true, rays, NULL, n, hits);
 }
 
 static void host_occluded(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked)
@@ -251,6 +272,7 @@ void host_add_scene(ps_host *host)
 {
     host->intersect = host_intersect;
     host->intersect_cones = host_intersect_cones;
+    host->intersect_specular = host_intersect_specular;
     host->occluded = host_occluded;
     host->intersect_packets = host_intersect_packets;
     host->sample_bsdf = host_sample_bsdf;

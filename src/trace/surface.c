@@ -282,6 +282,11 @@ static float number_of_point(const struct intersection *at, ps_vec3 place)
     return (float)((hash >> 8) + 1) * 0x1p-24f;
 }
 
+bool surface_is_specular(const struct scene *scene, const struct intersection *at)
+{
+    return scene->materials[find(scene, at).material].specular;
+}
+
 bool surface_is_opaque(const struct scene *scene, const struct intersection *at)
 {
     struct placed placed = find(scene, at);

@@ -31,6 +31,9 @@ ps_hit surface_at(const struct scene *scene, const ps_surface_point *point, ps_r
  * matter. */
 bool surface_is_opaque(const struct scene *scene, const struct intersection *intersection);
 
+/* Whether it mirrors, refracts or has gloss. */
+bool surface_is_specular(const struct scene *scene, const struct intersection *intersection);
+
 /* Whether the camera sees the side that a ray of that direction meets; the direction in the space
  * of at->normal. */
 bool surface_shows_side(const struct scene *scene, const struct intersection *at,

@@ -328,35 +328,56 @@ static void intersect(const struct trace *trace, const int valid[PACKET], struct
     shim_intersect16(valid, trace->embree, hits, coherent);
 }
 
-static ps_hit resolve(const struct trace *trace, const ps_ray *ray, float spread,
-                      const struct RTCRayHit16 *hits, size_t lane)
+struct query {
+    enum ray_kind kind;
+    const float *spreads;
+    bool specular_alone;
+};
+
+static ps_hit resolve(const struct trace *trace, const struct query *query, const ps_ray *rays,
+                      size_t ray, const struct RTCRayHit16 *hits, size_t lane)
 {
+    const ps_hit none = {.distance = INFINITY, .object = PS_NO_OBJECT};
     uint32_t geometry = hits->hit.geomID[lane], instance = hits->hit.instID[0][lane];
     if (geometry == RTC_INVALID_GEOMETRY_ID)
-        return (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
+        return none;
     struct intersection at =
         intersection_of(trace->scene, instance, geometry, hits->hit.primID[lane]);
     at.u = hits->hit.u[lane];
     at.v = hits->hit.v[lane];
     at.normal = (ps_vec3){hits->hit.Ng_x[lane], hits->hit.Ng_y[lane], hits->hit.Ng_z[lane]};
     at.distance = hits->ray.tfar[lane];
-    return surface_resolve(trace->scene, ray, spread, &at);
+    if (query->specular_alone && !surface_is_specular(trace->scene, &at))
+        return none;
+    float spread = query->spreads ? query->spreads[ray] : 0.0f;
+    return surface_resolve(trace->scene, &rays[ray], spread, &at);
 }
 
-void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays,
-                     const float *spreads, size_t n, ps_hit *hits)
+static void find_hits(const struct trace *trace, const struct query *query, const ps_ray *rays,
+                      size_t n, ps_hit *hits)
 {
     _Alignas(64) struct RTCRayHit16 packet;
     _Alignas(64) int valid[PACKET];
     for (size_t first = 0; first < n; first += PACKET) {
         size_t lanes = n - first < PACKET ? n - first : PACKET;
         load_rays(&packet.ray, valid, rays + first, lanes,
-                  kind == RAYS_CAMERA ? MASK_CAMERA : MASK_LIGHT);
-        intersect(trace, valid, &packet, kind != RAYS_INCOHERENT);
+                  query->kind == RAYS_CAMERA ? MASK_CAMERA : MASK_LIGHT);
+        intersect(trace, valid, &packet, query->kind != RAYS_INCOHERENT);
         for (size_t lane = 0; lane < lanes; lane++)
-            hits[first + lane] = resolve(trace, &rays[first + lane],
-                                         spreads ? spreads[first + lane] : 0.0f, &packet, lane);
+            hits[first + lane] = resolve(trace, query, rays, first + lane, &packet, lane);
     }
+}
+
+void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays,
+                     const float *spreads, size_t n, ps_hit *hits)
+{
+    find_hits(trace, &(struct query){.kind = kind, .spreads = spreads}, rays, n, hits);
+}
+
+void trace_intersect_specular(const struct trace *trace, const ps_ray *rays, size_t n, ps_hit *hits)
+{
+    find_hits(trace, &(struct query){.kind = RAYS_INCOHERENT, .specular_alone = true}, rays, n,
+              hits);
 }
 
 /* Never as a coherent packet: with instances or cut-outs Embree 3.13 then may not come back. */

@@ -28,6 +28,10 @@ size_t trace_bytes(const struct trace *trace);
 void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays,
                      const float *spreads, size_t n, ps_hit *hits);
 
+/* The same, but a ray that meets a surface without PS_HIT_SPECULAR first has no hit. */
+void trace_intersect_specular(const struct trace *trace, const ps_ray *rays, size_t n,
+                              ps_hit *hits);
+
 /* 1 where something lies between tnear and tfar. */
 void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uint8_t *blocked);
 

@@ -102,7 +102,7 @@ done
 abuse negative estimator
 warned "estimator abusive made 2 $numbers"
 abuse rays estimator
-warned 'estimator abusive made 5 rays that are no numbers; they meet nothing$'
+warned 'estimator abusive made 7 rays that are no numbers; they meet nothing$'
 abuse keep estimator
 # shellcheck disable=SC2086
 run_leaking 0 --size 48x27 $words -o a.exr --stats a.json "$cornell"

@@ -101,6 +101,13 @@ static void bad_rays(const ps_host *host)
     uint8_t blocked[3];
     _Alignas(64) ps_ray_packet packet;
     host->intersect(host, rays, 3, hits);
+#if PS_ABI_MINOR >= 16
+    ps_hit mirrors[3];
+    host->intersect_specular(host, rays, 3, mirrors);
+    for (int i = 0; i < 3; i++)
+        if (mirrors[i].distance < INFINITY)
+            host->fail(host, PS_ERROR_INVALID, "a mirror where none is");
+#endif
     host->occluded(host, rays, 3, blocked);
     for (size_t lane = 0; lane < 16; lane++)
         ps_packet_set(&packet, lane, rays[lane == 7 ? 0 : 1]);

@@ -19,7 +19,9 @@
 #define ROOM                                                                                       \
     "psd: 1\n"                                                                                     \
     "camera: {location: [5, 5, 1], look_at: [5, 5, 5]}\n"                                          \
-    "materials: {white: {diffuse: [0.7, 0.7, 0.7]}}\n"                                             \
+    "materials: {white: {diffuse: [0.7, 0.7, 0.7]}, mirror: {mirror: 0.8},\n"                      \
+    "            glass: {dielectric: {ior: 1.5}},\n"                                               \
+    "            satin: {glossy: {diffuse: 0.5, specular: 0.2, roughness: 0.3}}}\n"                \
     "objects:\n"                                                                                   \
     "  - box: {corners: [[0, 0, 0], [10, 10, 10]], material: white}\n"                             \
     "  - box: {corners: [[1, 0.5, 2], [4, 3, 5]], material: white}\n"                              \
@@ -135,11 +137,43 @@ static void test_nothing_gets_through_edges(void **state)
     expect_closed(ROOM MANY_TRIANGLES);
 }
 
+#define MIRRORS                                                                                    \
+    "  - sphere: {center: [2, 7, 7], radius: 2, material: mirror}\n"                               \
+    "  - box: {corners: [[6, 7, 1], [9, 9, 4]], material: glass}\n"                                \
+    "  - sphere: {center: [7, 6, 7], radius: 1.5, material: satin}\n"
+
+/* Where a diffuse surface lies before a mirror, it is not looked through. */
+static void test_specular_surfaces_alone(void **state)
+{
+    (void)state;
+    static ps_ray rays[RAYS];
+    static ps_hit hits[RAYS], specular[RAYS];
+    struct traced traced;
+    struct random random = {3};
+    size_t met = 0;
+    trace_text(ROOM MIRRORS, &traced);
+    for (size_t i = 0; i < RAYS; i++)
+        rays[i] = (ps_ray){point_in_room(&random), 0, random_direction(&random), INFINITY};
+    trace_intersect(traced.trace, RAYS_INCOHERENT, rays, NULL, RAYS, hits);
+    trace_intersect_specular(traced.trace, rays, RAYS, specular);
+    for (size_t i = 0; i < RAYS; i++) {
+        bool is_specular = hits[i].flags & PS_HIT_SPECULAR;
+        met += is_specular;
+        if (is_specular)
+            assert_memory_equal(&specular[i], &hits[i], sizeof hits[i]);
+        else
+            assert_true(isinf(specular[i].distance) && specular[i].object == PS_NO_OBJECT);
+    }
+    assert_in_range(met, RAYS / 10, RAYS / 2);
+    traced_release(&traced);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_both_trees_find_the_same),
         cmocka_unit_test(test_nothing_gets_through_edges),
+        cmocka_unit_test(test_specular_surfaces_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
