@@ -42,9 +42,11 @@ static void test_knows_nothing_at_first(void **state)
     guide_begin(&guide, up);
     guide_update(&guide);
     assert_true(guide.scale == 0.0f);
-    for (int i = 0; i < 100; i++) {
-        struct guide_sample sample =
-            guide_sample(&guide, up, random_unit(&random), random_unit(&random));
+    for (int i = 0; i < 1000; i++) {
+        float a = random_unit(&random), b = random_unit(&random);
+        struct guide_sample sample = guide_sample(&guide, up, a, b);
+        ps_vec3 even = ps_cosine_direction(up, a, b);
+        assert_true(ps_length(ps_subtract(sample.direction, even)) < 1e-6f);
         assert_true(sample.direction.z >= 0);
         assert_true(guide_ratio(&guide, sample.bin) == 1.0f);
         assert_true(guide_smooth_ratio(&guide, 0, sample.bin) == 1.0f);

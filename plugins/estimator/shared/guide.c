@@ -172,14 +172,41 @@ static inline float invert(const float *ends, int n, float number)
     return (float)i + (part > 0.0f ? ps_min((at - before) / part, 0.999998f) : 0.5f);
 }
 
+/* Cosine and sine of the middles of the sectors. */
+static const float middles[GUIDE_SECTORS][2] = {
+    {0.980785280f, 0.195090322f},   {0.831469612f, 0.555570233f},   {0.555570233f, 0.831469612f},
+    {0.195090322f, 0.980785280f},   {-0.195090322f, 0.980785280f},  {-0.555570233f, 0.831469612f},
+    {-0.831469612f, 0.555570233f},  {-0.980785280f, 0.195090322f},  {-0.980785280f, -0.195090322f},
+    {-0.831469612f, -0.555570233f}, {-0.555570233f, -0.831469612f}, {-0.195090322f, -0.980785280f},
+    {0.195090322f, -0.980785280f},  {0.555570233f, -0.831469612f},  {0.831469612f, -0.555570233f},
+    {0.980785280f, -0.195090322f},
+};
+
+struct on_circle {
+    float cosine, sine;
+};
+
+/* At a position in sectors: by the middle of its sector and the rest of the way, at most 0.2, for
+ * which Taylor's polynomials are exact to rounding. A call of sincosf takes three times as long. */
+static inline struct on_circle on_circle_at(float sector)
+{
+    const float *middle = middles[(int)sector];
+    float x = (sector - (float)(int)sector - 0.5f) * (2.0f * PS_PI / GUIDE_SECTORS), x2 = x * x;
+    float sine = x * (1.0f - x2 * (1.0f / 6.0f) * (1.0f - x2 * (1.0f / 20.0f)));
+    float cosine = 1.0f - x2 * 0.5f * (1.0f - x2 * (1.0f / 12.0f) * (1.0f - x2 * (1.0f / 30.0f)));
+    return (struct on_circle){middle[0] * cosine - middle[1] * sine,
+                              middle[1] * cosine + middle[0] * sine};
+}
+
 /* The direction at a position in the histogram, in bins: ps_cosine_direction() by the guide's
  * frame. */
 static inline struct guide_sample direction_at(const struct guide *guide, float ring, float sector)
 {
-    float sine2 = ring / GUIDE_RINGS, phi = sector * (2.0f * PS_PI / GUIDE_SECTORS);
+    struct on_circle around = on_circle_at(sector);
+    float sine2 = ring / GUIDE_RINGS;
     float sine = sqrtf(sine2), cosine = sqrtf(ps_max(1.0f - sine2, 0.0f));
     ps_vec3 in_plane =
-        ps_add_scaled(ps_scale(guide->u, sine * cosf(phi)), sine * sinf(phi), guide->v);
+        ps_add_scaled(ps_scale(guide->u, sine * around.cosine), sine * around.sine, guide->v);
     return (struct guide_sample){ps_add_scaled(in_plane, cosine, guide->normal),
                                  {(int32_t)ring * GUIDE_SECTORS + (int32_t)sector, 1.0f},
                                  1.0f};
