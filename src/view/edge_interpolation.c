@@ -133,9 +133,18 @@ static void interpolate_from_tile(const ps_tile *from, float count, ps_tile *til
         gbuffer_alike(from, position, ps_tile_normal(tile, lane), tile->object[lane], alike);
     if (!(found > count))
         return;
+    float total = 0.0f;
+#pragma omp simd reduction(+ : total)
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        ps_vec3 way = ps_subtract(ps_tile_position(from, i), position);
+        weights[i] = alike[i] * gbuffer_nearness(way);
+        total += weights[i];
+    }
 #pragma omp simd
-    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
-        weights[i] = alike[i] * gbuffer_nearness(ps_subtract(ps_tile_position(from, i), position));
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) { /* in proportion, as squares might overflow */
+        float near = weights[i] / total;
+        weights[i] = near * near;
+    }
     tile->irradiance_r[lane] = weighted_mean(weights, from->irradiance_r, PS_TILE_PIXELS);
     tile->irradiance_g[lane] = weighted_mean(weights, from->irradiance_g, PS_TILE_PIXELS);
     tile->irradiance_b[lane] = weighted_mean(weights, from->irradiance_b, PS_TILE_PIXELS);

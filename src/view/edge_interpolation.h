@@ -7,9 +7,10 @@
  * with x the sample's point and x_i those of the pixels (inverse distance weighting: Shepard 1968,
  * "A two-dimensional interpolation function for irregularly-spaced data"): light changes fast in
  * corners and under eaves, and what two pixels see may lie far apart. Where no pixel around sees
- * the surface (for stochastic samples: fewer than six), the pixels of the tile that do are used;
- * failing that, pixels around of the same object, or any that see a surface. The indirect light of
- * a sample by rays of its own would be far noisier.
+ * the surface (for stochastic samples: fewer than six), the pixels of the tile that do are used, by
+ * w_i^2: many of them may lie far away and in other light, such as a caustic before a glass that
+ * reflects what lies beside it. Failing that, pixels around of the same object, or any that see a
+ * surface, are used. The indirect light of a sample by rays of its own would be far noisier.
  */
 #ifndef VIEW_EDGE_INTERPOLATION_H
 #define VIEW_EDGE_INTERPOLATION_H

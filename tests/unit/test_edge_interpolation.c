@@ -1,0 +1,109 @@
+/* test_edge_interpolation.c: the indirect light of camera samples, from that of pixels of a tile
+ * (view/edge_interpolation.h). */
+#include "view/edge_interpolation.h"
+
+#include <psplat/tile.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#define FLOOR 1u
+#define WALL 2u
+#define COLUMN 8u /* of the pixel that samples lie in */
+#define ROW 4u
+
+static struct gbuffer gbuffer;
+
+static int open_gbuffer(void **state)
+{
+    (void)state;
+    struct error error;
+    return gbuffer_create(gbuffer_layout(PS_TILE_SIZE, PS_TILE_SIZE), &gbuffer, &error);
+}
+
+static int close_gbuffer(void **state)
+{
+    (void)state;
+    gbuffer_release(&gbuffer);
+    return 0;
+}
+
+static ps_hit hit_at(uint32_t object, float x, float y)
+{
+    return (ps_hit){.position = {x, y, object == WALL ? 1.0f : 0.0f},
+                    .normal = {0, 0, 1},
+                    .albedo = {0.5f, 0.5f, 0.5f},
+                    .object = object};
+}
+
+static void see(uint32_t lane, uint32_t object, float x, float y, float light)
+{
+    ps_hit hit = hit_at(object, x, y);
+    gbuffer_store(&gbuffer.tiles[0], lane, &hit, (ps_rgb){1, 1, 1}, 1);
+    ps_add_irradiance(&gbuffer.tiles[0], lane, (ps_rgb){light, light, light});
+}
+
+/* The light of a stochastic sample that sees the floor there. */
+static float light_of_sample(float x, float y)
+{
+    struct edge_neighbours neighbours;
+    struct gbuffer samples;
+    struct error error;
+    ps_hit hit = hit_at(FLOOR, x, y);
+    assert_int_equal(gbuffer_create(gbuffer_layout(PS_TILE_SIZE, PS_TILE_SIZE), &samples, &error),
+                     PS_OK);
+    gbuffer_clear_tile(&samples, 0);
+    gbuffer_store(&samples.tiles[0], 0, &hit, (ps_rgb){1, 1, 1}, 1);
+    edge_neighbours_find(&gbuffer, COLUMN, ROW, &neighbours);
+    edge_interpolate(&gbuffer, &neighbours, COLUMN, ROW, true, &samples.tiles[0], 0);
+    float light = samples.tiles[0].irradiance_g[0];
+    gbuffer_release(&samples);
+    return light;
+}
+
+/* Pixels of row 0 see the floor, one unit apart; all others a wall. */
+static void fill(void)
+{
+    gbuffer_clear_tile(&gbuffer, 0);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        float column = (float)(lane % PS_TILE_SIZE);
+        if (lane < PS_TILE_SIZE)
+            see(lane, FLOOR, column, 0.0f, 1.0f + column);
+        else
+            see(lane, WALL, column, (float)(lane / PS_TILE_SIZE), 50.0f);
+    }
+}
+
+/* No pixel around sees the floor: what those of the tile see nearest to the sample is its light. */
+static void test_from_the_tile(void **state)
+{
+    (void)state;
+    fill();
+    assert_float_equal(light_of_sample(3.0f, 0.0f), 4.0, 1e-4);
+    assert_float_equal(light_of_sample(3.5f, 0.0f), 4.5, 0.2);
+    assert_float_equal(light_of_sample(10.5f, 0.0f), 11.5, 0.2);
+}
+
+/* Half of the tile sees a caustic, 20 units away and 100 times as bright. */
+static void test_far_light_stays_far(void **state)
+{
+    (void)state;
+    fill();
+    for (uint32_t lane = PS_TILE_PIXELS / 2; lane < PS_TILE_PIXELS; lane++) {
+        gbuffer.tiles[0].irradiance_g[lane] = 0.0f;
+        see(lane, FLOOR, 5.0f, 20.0f + 0.1f * (float)(lane % PS_TILE_SIZE), 500.0f);
+    }
+    assert_float_equal(light_of_sample(4.5f, 0.0f), 5.5, 1.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_from_the_tile),
+        cmocka_unit_test(test_far_light_stays_far),
+    };
+    return cmocka_run_group_tests(tests, open_gbuffer, close_gbuffer);
+}
