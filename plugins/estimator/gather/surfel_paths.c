@@ -1,5 +1,6 @@
 #include "surfel_paths.h"
 
+#include "surfel_correction.h"
 #include "surfel_table.h"
 
 #define FEWEST_ONE_SEGMENT 4   /* paths of a surfel: with fewer there is no second step */

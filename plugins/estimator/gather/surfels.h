@@ -56,12 +56,6 @@ static inline struct surfel_group surfels_group(const struct surfels *surfels, u
     return (struct surfel_group){first, left < SURFELS_GROUP ? left : SURFELS_GROUP};
 }
 
-/* Corrects the surfels' irradiance, which is that of splats: smooth, but blotched, and a few
- * percent too dark or too bright where kernels are wide. `traced` is right on average, with noise:
- * the irradiance by paths; `half` is that by the first half of each surfel's paths, which tells the
- * noise. PS_ERROR_MEMORY: nothing happened. */
-ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const ps_rgb *half);
-
 void surfels_release(struct surfels *surfels);
 
 /* Curved mirrors and glass may focus rays: what lies around their ends is told as for rays of this

@@ -1,5 +1,5 @@
-/* test_surfels.c: the light of surfels by splats, corrected by paths. */
-#include "../../plugins/estimator/gather/surfels.h"
+/* test_surfel_correction.c: the light of surfels by splats, corrected by paths. */
+#include "../../plugins/estimator/gather/surfel_correction.h"
 
 #include "support/one_strategy.h"
 #include <setjmp.h>
