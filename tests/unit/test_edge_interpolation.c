@@ -41,9 +41,11 @@ static ps_hit hit_at(uint32_t object, float x, float y)
 
 static void see(uint32_t lane, uint32_t object, float x, float y, float light)
 {
+    ps_tile *tile = &gbuffer.tiles[0];
     ps_hit hit = hit_at(object, x, y);
-    gbuffer_store(&gbuffer.tiles[0], lane, &hit, (ps_rgb){1, 1, 1}, 1);
-    ps_add_irradiance(&gbuffer.tiles[0], lane, (ps_rgb){light, light, light});
+    gbuffer_store(tile, lane, &hit, (ps_rgb){1, 1, 1}, 1);
+    tile->irradiance_r[lane] = tile->irradiance_g[lane] = tile->irradiance_b[lane] = light;
+    tile->weight[lane] = 1.0f;
 }
 
 /* The light of a stochastic sample that sees the floor there. */
@@ -92,10 +94,8 @@ static void test_far_light_stays_far(void **state)
 {
     (void)state;
     fill();
-    for (uint32_t lane = PS_TILE_PIXELS / 2; lane < PS_TILE_PIXELS; lane++) {
-        gbuffer.tiles[0].irradiance_g[lane] = 0.0f;
+    for (uint32_t lane = PS_TILE_PIXELS / 2; lane < PS_TILE_PIXELS; lane++)
         see(lane, FLOOR, 5.0f, 20.0f + 0.1f * (float)(lane % PS_TILE_SIZE), 500.0f);
-    }
     assert_float_equal(light_of_sample(4.5f, 0.0f), 5.5, 1.0);
 }
 

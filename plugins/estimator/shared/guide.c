@@ -187,7 +187,7 @@ struct on_circle {
 };
 
 /* At a position in sectors: by the middle of its sector and the rest of the way, at most 0.2, for
- * which Taylor's polynomials are exact to rounding. A call of sincosf takes three times as long. */
+ * which Taylor's polynomials are exact to rounding. sincosf would be slower. */
 static inline struct on_circle on_circle_at(float sector)
 {
     const float *middle = middles[(int)sector];
