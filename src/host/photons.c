@@ -100,11 +100,19 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
         atomic_fetch_add(&batch->unseen->in_batch, unseen);
 }
 
-/* The splats of n photons, for what `onto` lights; NULL: nothing is known of it. */
+/* The splats of n photons, for what `onto` lights; NULL: nothing is known of it. `scene`: all but
+ * the caustics. */
 static void place(struct render *render, struct splatter *onto, struct placement_scene scene,
                   const ps_photon *photons, size_t n, struct splat *splats)
 {
     double start = clock_seconds();
+    const struct photon_stream *stream = &render->photons;
+    const struct caustics caustics = {
+        .landings = stream->caustics,
+        .count = stream->caustic_count,
+        .scale = caustics_scale(stream->photons_per_caustic, render->pass.number),
+    };
+    scene.caustics = &caustics;
     if (onto)
         begin_batch(&onto->unseen);
     struct batch batch = {render, placement_of(render, onto), photons, n,
@@ -117,21 +125,9 @@ static void place(struct render *render, struct splatter *onto, struct placement
     statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
 }
 
-static struct caustics caustics_of(const struct render *render)
-{
-    const struct photon_stream *stream = &render->photons;
-    return (struct caustics){
-        .landings = stream->caustics,
-        .count = stream->caustic_count,
-        .scale = caustics_scale(stream->photons_per_caustic, render->pass.number),
-    };
-}
-
 void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
 {
-    const struct caustics caustics = caustics_of(render);
     struct placement_scene scene = place_scene(render);
-    scene.caustics = &caustics;
     scene.interleave = render->has_splatter ? render->splatter.lit.interleave : 1;
     scene.gather_distance = render->gathered_light.distance;
     place(render, render->splatting ? &render->splatter : NULL, scene, photons, n, splats);
@@ -142,10 +138,7 @@ void photons_place(struct render *render, const ps_photon *photons, size_t n, st
 static void place_for_points(struct render *render, const ps_photon *photons, size_t n,
                              struct splat *splats)
 {
-    const struct caustics caustics = caustics_of(render);
-    struct placement_scene scene = place_scene(render);
-    scene.caustics = &caustics;
-    place(render, &render->points, scene, photons, n, splats);
+    place(render, &render->points, place_scene(render), photons, n, splats);
 }
 
 /* --- services

@@ -1,33 +1,20 @@
 /* test_discontinuity_buffer.c: which pixels join their direct light: on synthetic G-buffers, wider
  * than a tile. */
 #include "direct/discontinuity_buffer.h"
+#include "gbuffer_fixture.h"
 #include "support/workers.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 #define WIDTH 20
 #define HEIGHT 18
-
-static struct gbuffer gbuffer;
 
 static int open_gbuffer(void **state)
 {
     (void)state;
     struct error error;
-    return gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &gbuffer, &error) != PS_OK ||
+    return create_gbuffer(WIDTH, HEIGHT) != 0 ||
            gbuffer_prepare_discontinuity_buffer(&gbuffer, &error) != PS_OK;
-}
-
-static int close_gbuffer(void **state)
-{
-    (void)state;
-    gbuffer_release(&gbuffer);
-    return 0;
 }
 
 /* What a pixel shows. */

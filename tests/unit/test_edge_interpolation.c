@@ -4,31 +4,17 @@
 
 #include <psplat/tile.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
+#include "gbuffer_fixture.h"
 
 #define FLOOR 1u
 #define WALL 2u
 #define COLUMN 8u /* of the pixel that samples lie in */
 #define ROW 4u
 
-static struct gbuffer gbuffer;
-
 static int open_gbuffer(void **state)
 {
     (void)state;
-    struct error error;
-    return gbuffer_create(gbuffer_layout(PS_TILE_SIZE, PS_TILE_SIZE), &gbuffer, &error);
-}
-
-static int close_gbuffer(void **state)
-{
-    (void)state;
-    gbuffer_release(&gbuffer);
-    return 0;
+    return create_gbuffer(PS_TILE_SIZE, PS_TILE_SIZE);
 }
 
 static ps_hit hit_at(uint32_t object, float x, float y)
@@ -51,19 +37,13 @@ static void see(uint32_t lane, uint32_t object, float x, float y, float light)
 /* The light of a stochastic sample that sees the floor there. */
 static float light_of_sample(float x, float y)
 {
+    static ps_tile samples;
     struct edge_neighbours neighbours;
-    struct gbuffer samples;
-    struct error error;
     ps_hit hit = hit_at(FLOOR, x, y);
-    assert_int_equal(gbuffer_create(gbuffer_layout(PS_TILE_SIZE, PS_TILE_SIZE), &samples, &error),
-                     PS_OK);
-    gbuffer_clear_tile(&samples, 0);
-    gbuffer_store(&samples.tiles[0], 0, &hit, (ps_rgb){1, 1, 1}, 1);
+    gbuffer_store(&samples, 0, &hit, (ps_rgb){1, 1, 1}, 1);
     edge_neighbours_find(&gbuffer, COLUMN, ROW, &neighbours);
-    edge_interpolate(&gbuffer, &neighbours, COLUMN, ROW, true, &samples.tiles[0], 0);
-    float light = samples.tiles[0].irradiance_g[0];
-    gbuffer_release(&samples);
-    return light;
+    edge_interpolate(&gbuffer, &neighbours, COLUMN, ROW, true, &samples, 0);
+    return samples.irradiance_g[0];
 }
 
 /* Pixels of row 0 see the floor, one unit apart; all others a wall. */

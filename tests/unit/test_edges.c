@@ -2,29 +2,15 @@
  * its right half differs from its left one in one thing at a time. */
 #include "view/edges.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
+#include "gbuffer_fixture.h"
 
 #define WIDTH 20
 #define HEIGHT 18
 
-static struct gbuffer gbuffer;
-
 static int open_gbuffer(void **state)
 {
     (void)state;
-    struct error error;
-    return gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &gbuffer, &error);
-}
-
-static int close_gbuffer(void **state)
-{
-    (void)state;
-    gbuffer_release(&gbuffer);
-    return 0;
+    return create_gbuffer(WIDTH, HEIGHT);
 }
 
 static const ps_hit grey = {.normal = {0, 0, 1}, .albedo = {0.5f, 0.5f, 0.5f}};

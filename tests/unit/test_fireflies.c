@@ -4,29 +4,15 @@
 
 #include <psplat/tile.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
+#include "gbuffer_fixture.h"
 
 #define BRIGHT 115u /* a lane of the left half */
 #define RIGHT 8u    /* column where the right half begins */
 
-static struct gbuffer gbuffer;
-
 static int open_gbuffer(void **state)
 {
     (void)state;
-    struct error error;
-    return gbuffer_create(gbuffer_layout(PS_TILE_SIZE, PS_TILE_SIZE), &gbuffer, &error);
-}
-
-static int close_gbuffer(void **state)
-{
-    (void)state;
-    gbuffer_release(&gbuffer);
-    return 0;
+    return create_gbuffer(PS_TILE_SIZE, PS_TILE_SIZE);
 }
 
 static ps_tile *tile(void)
