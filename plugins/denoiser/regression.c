@@ -14,7 +14,12 @@
  * for signal. Edges of light show in all bands, noise seldom in two: so the factor c is 2 where the
  * wider band was kept, 4 where it was not, and in between in proportion (bivariate shrinkage,
  * Sendur and Selesnick 2002). In a single pass, whose noise is estimated from the light itself, 1.2
- * takes the place of 2 past the first band.
+ * takes the place of 2 past the first band. <N^2> is a mean over a wider square than <B^2>, since
+ * one picture of the noise is a poor estimate. Where a few bright samples meet, it tells too
+ * little, and they would stay as bumps of even walls: so where halves tell the noise (below),
+ * narrow bands take the larger of that mean and 1.25 times that over the square of <B^2>; less
+ * where <B^2> is large, as at edges of shadows and caustics, which have their noise in one place
+ * with their light.
  *
  * Where two halves of the light are known, of passes or of shadow rays, their difference is the
  * noise, and the pixels themselves are a last band: light without noise stays as it is, with its
@@ -147,7 +152,7 @@ static void lay_out_without(struct room *room, int count, float *planes[])
 }
 
 /* Planes that all images share, with a margin and without, and those of each. */
-enum { GUIDES = 8, SCRATCH = 5 };
+enum { GUIDES = 8, SCRATCH = 6 };
 enum { IMAGE_WITH_MARGIN = 2 * VALUES, IMAGE = 2 * VALUES + REGRESSION_COLOURS + 4 };
 
 #define IMAGE_BYTES ((IMAGE_WITH_MARGIN + IMAGE) * sizeof(float) + REGRESSION_PLANES_PIXEL)
@@ -160,6 +165,7 @@ static void lay_out_shared(struct denoised_image *image, struct room *room)
     lay_out_with_margin(room, 1, &image->guides.size);
     lay_out_without(room, 1, &image->signal);
     lay_out_without(room, 1, &image->scratch);
+    lay_out_without(room, 1, &image->noise_near);
     lay_out_without(room, 1, &image->signal_weight);
     lay_out_without(room, 1, &image->noise_weight);
     lay_out_without(room, 1, &image->kind);

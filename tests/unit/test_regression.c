@@ -271,6 +271,44 @@ static void test_shared_noise_at_edges_is_noise(void **state)
     expect_shared_noise_to_fall("at edges", picture, 0.3);
 }
 
+/* An even floor under noise, with rows of three bright samples, of which one half has two. Returns
+ * how far a pixel there is too bright afterwards, in the mean over seeds. */
+static double left_of_bright_samples(void)
+{
+    enum { SEEDS = 6, APART = 25, COUNT = WIDTH / APART };
+    static float room[2][3][PIXELS];
+    double sum = 0;
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        struct picture *picture = level_floor();
+        struct random random = {300 + seed};
+        picture->halves = room;
+        for (int i = 0; i < PIXELS; i++) {
+            int x = i % WIDTH % APART - APART / 2;
+            bool is_bright = i / WIDTH == HEIGHT / 2 && abs(x) <= 1;
+            float even = random_between(&random, 0.8f, 1.2f) + (is_bright && x != 0 ? 1.5f : 0.0f);
+            float odd = random_between(&random, 0.8f, 1.2f) + (is_bright && x == 0 ? 1.5f : 0.0f);
+            for (int c = 0; c < 3; c++) {
+                room[0][c][i] = even;
+                room[1][c][i] = odd;
+                picture->light[c][i] = 0.5f * (even + odd);
+            }
+        }
+        denoise(picture, CHOICE, 2);
+        for (int k = 0; k < COUNT; k++)
+            sum += (double)picture->light[1][HEIGHT / 2 * WIDTH + k * APART + APART / 2] - 1;
+        free(picture);
+    }
+    return sum / (SEEDS * COUNT);
+}
+
+static void test_bright_samples_leave_no_bumps(void **state)
+{
+    (void)state;
+    double left = left_of_bright_samples();
+    print_message("three bright samples: too bright by %.3f\n", left);
+    assert_true(left < 0.1);
+}
+
 /* A disc of light ten pixels wide, as a caustic is: halves tell that it is no noise, a single pass
  * cannot know. */
 static double lost_of_disc(float (*halves)[3][PIXELS])
@@ -589,6 +627,7 @@ int main(void)
         cmocka_unit_test(test_chance_leaves_no_grain),
         cmocka_unit_test(test_shared_noise_of_gloss_is_noise),
         cmocka_unit_test(test_shared_noise_at_edges_is_noise),
+        cmocka_unit_test(test_bright_samples_leave_no_bumps),
         cmocka_unit_test(test_what_is_no_noise_stays),
         cmocka_unit_test(test_sun_beside_noise_stays),
         cmocka_unit_test(test_outliers_spread),

@@ -15,6 +15,13 @@
 #define GUESSED_THRESHOLD 1.2f
 #define PIXELS_THRESHOLD 1.5f
 
+/* Bands of R up to NARROW take what is larger, the mean of the noise over the wider square or that
+ * over the square of the signal: which counts for so much, being that of few blobs, and for half of
+ * it where the signal's mean square, relative to the light, is 1 / SIGNAL_NEAR. */
+#define NARROW 6
+#define NOISE_NEAR 1.25f
+#define SIGNAL_NEAR 30.0f
+
 #define PIXELS_WINDOW 4        /* R of the window of the last band */
 #define BROAD_AMONG_THIN 0.03f /* weight of a BROAD pixel in the means of THIN ones */
 #define SURROUNDINGS                                                                               \
@@ -72,6 +79,7 @@ PS_EVERY_ISA static void measure(const struct row row)
                                                               image->inverse_square + row.first;
     const float *restrict fine[VALUES], *restrict coarse[VALUES];
     float *restrict signal = image->signal + row.first, *restrict noise = image->noise + row.first;
+    float *restrict noise_near = image->noise_near + row.first;
     for (int c = 0; c < VALUES; c++) {
         fine[c] = image->fine[c] + row.first;
         coarse[c] = image->coarse[c] + row.first;
@@ -83,7 +91,7 @@ PS_EVERY_ISA static void measure(const struct row row)
         band -= coarse[0][i] + coarse[1][i] + coarse[2][i];
         float chance = fine[NOISE][i] - coarse[NOISE][i];
         signal[i] = band * band * weight;
-        noise[i] = chance * chance * weight;
+        noise[i] = noise_near[i] = chance * chance * weight;
     }
 }
 
@@ -121,6 +129,30 @@ static void sum_over_square(const struct denoised_image *image, int radius, floa
 static PS_INLINED float mean_of(float sum, float count)
 {
     return sum / (count > 0.0f ? count : 1.0f);
+}
+
+/* The larger mean square of the noise over both squares, as a sum over the wider one. */
+PS_EVERY_ISA static void take_larger_noise(const struct row row)
+{
+    const struct denoised_image *image = row.image;
+    const float *restrict signal = image->signal + row.first;
+    const float *restrict noise_near = image->noise_near + row.first;
+    const float *restrict signal_weight = image->signal_weight + row.first;
+    const float *restrict noise_weight = image->noise_weight + row.first;
+    float *restrict noise = image->noise + row.first;
+#pragma omp simd
+    for (size_t i = 0; i < image->width; i++) {
+        float squares = mean_of(signal[i], signal_weight[i]);
+        float near = mean_of(noise_near[i], signal_weight[i]);
+        near *= NOISE_NEAR / (1.0f + SIGNAL_NEAR * squares);
+        noise[i] = ps_max(noise[i], near * noise_weight[i]);
+    }
+}
+
+static void take_larger_noise_of_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    take_larger_noise(row_of(user, row));
 }
 
 /* What is kept of a band of mean square S, of which N is noise: 1 - (c N / S)^2, with the limit c
@@ -193,9 +225,19 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     add(row_of(user, row));
 }
 
+/* Puts sums over squares in place of B^2 and N^2, that of the noise over twice the radius. */
+static void average_squares(struct denoised_image *image, int radius)
+{
+    sum_over_square(image, radius, image->signal);
+    sum_over_square(image, 2 * radius, image->noise);
+    if (radius > NARROW || !image->view->even_r)
+        return;
+    sum_over_square(image, radius, image->noise_near);
+    image->host->parallel_for(image->host, image->height, take_larger_noise_of_row, image);
+}
+
 /* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one
- * kind. One picture of the noise is a poor estimate, so its square is averaged over a window of
- * twice the radius. */
+ * kind. */
 static void add_band_of_kind(struct denoised_images *images, int count, int radius,
                              enum pixel_kind kind)
 {
@@ -208,8 +250,7 @@ static void add_band_of_kind(struct denoised_images *images, int count, int radi
     for (int i = 0; i < count; i++) {
         struct denoised_image *image = &images->of[i];
         image->host->parallel_for(image->host, image->height, measure_row, image);
-        sum_over_square(image, radius, image->signal);
-        sum_over_square(image, 2 * radius, image->noise);
+        average_squares(image, radius);
         image->host->parallel_for(image->host, image->height, add_row, image);
     }
 }
