@@ -430,6 +430,37 @@ static void test_outliers_of_gloss_spread(void **state)
     assert_true(elsewhere > 2);
 }
 
+/* A pixel for which both halves found 4, and another six pixels away for which one half found
+ * `found` and the other 1. Returns what is left of the first. */
+static float left_of_pixel(float found)
+{
+    static float room[2][3][PIXELS];
+    struct picture *picture = level_floor();
+    int bright = 12 * WIDTH + 75, other = bright + 6;
+    picture->halves = room;
+    for (int i = 0; i < PIXELS; i++)
+        for (int c = 0; c < 3; c++) {
+            room[0][c][i] = i == bright ? 4.0f : i == other ? found : 1.0f;
+            room[1][c][i] = i == bright ? 4.0f : 1.0f;
+            picture->light[c][i] = 0.5f * (room[0][c][i] + room[1][c][i]);
+        }
+    denoise(picture, CHOICE, 2);
+    float left = picture->light[0][bright];
+    free(picture);
+    return left;
+}
+
+/* Two halves may find the same by chance, where others found as much in one alone. */
+static void test_what_both_halves_find_may_be_chance(void **state)
+{
+    (void)state;
+    float sure = left_of_pixel(1.0f), chance = left_of_pixel(7.0f);
+    print_message("a pixel of 4 for both halves: %.2f, beside noise %.2f\n", (double)sure,
+                  (double)chance);
+    assert_true(sure > 3.9f);
+    assert_true(chance < 1.8f);
+}
+
 /* --- thin things --- */
 
 /* Gives the pixels whose place is 3 of every `period` noise of a deviation of 0.29, which the rest
@@ -632,6 +663,7 @@ int main(void)
         cmocka_unit_test(test_sun_beside_noise_stays),
         cmocka_unit_test(test_outliers_spread),
         cmocka_unit_test(test_outliers_of_gloss_spread),
+        cmocka_unit_test(test_what_both_halves_find_may_be_chance),
         cmocka_unit_test(test_noise_of_thin_things_falls),
         cmocka_unit_test(test_light_of_thin_things_stays),
         cmocka_unit_test(test_what_is_no_surface_stays),

@@ -4,7 +4,8 @@
 
 #define DARKEST 1e-3f      /* albedo below which a channel tells nothing about the irradiance */
 #define FAR_ABOVE 2.0f     /* of the first fit: what is brighter may be left out of the bands */
-#define OUTLIER_NOISE 1.5f /* times the noise near by, by which outliers may be too bright */
+#define OUTLIER_NOISE 1.5f /* times the largest noise within NOISY: outliers may be so bright */
+#define NOISY 8            /* pixels to each side */
 #define NEAR 3             /* pixels to each side are near by */
 #define FEW 4 /* pixels near by, with itself, that are half as bright as an outlier, at most */
 #define FEW_IN_GLOSS 6 /* the same in gloss, where chance has more to say */
@@ -118,7 +119,7 @@ static float sign_of_noise(const struct denoised_image *image, size_t x, size_t 
     return random_sign((uint32_t)(y / side * side * image->width + x / side * side));
 }
 
-/* The noise by halves; and the largest one near by along the row, into `scratch`. */
+/* The noise by halves; and the largest one within NOISY along the row, into `scratch`. */
 static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
@@ -129,7 +130,7 @@ static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
                                       ? noise_of_halves(image->view, first + x)
                                       : 0.0f;
     for (size_t x = 0; x < image->width; x++) {
-        size_t from = x > NEAR ? x - NEAR : 0, end = x + NEAR + 1;
+        size_t from = x > NOISY ? x - NOISY : 0, end = x + NOISY + 1;
         float most = 0.0f;
         for (size_t i = from; i < end && i < image->width; i++)
             most = ps_max(most, fabsf(image->noise[first + i]));
@@ -139,7 +140,7 @@ static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
 
 static float largest_noise_near(const struct denoised_image *image, size_t x, size_t y)
 {
-    size_t from = y > NEAR ? y - NEAR : 0, end = y + NEAR + 1;
+    size_t from = y > NOISY ? y - NOISY : 0, end = y + NOISY + 1;
     float most = 0.0f;
     for (size_t i = from; i < end && i < image->height; i++)
         most = ps_max(most, image->scratch[i * image->width + x]);
