@@ -1,6 +1,6 @@
 /* test_skylight.c: a room that the sky lights through a window, by the final gather, whose rays
- * take the sky's light where they land out of a cache; and one with a sun besides, and with counted
- * bounces.
+ * take the sky's light where they land out of a cache; one with a sun besides, and with counted
+ * bounces; and a wall before red grooves between white beams.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -42,7 +42,7 @@ static struct rendering render_by(const char *scene, const char *estimator, cons
                                   int seed)
 {
     const char *const strategies[] = {estimator, "denoiser=none", NULL};
-    char text[4096];
+    char text[8192];
     snprintf(text, sizeof text, "%srender: {bounces: %s, passes: 1, seed: %d}\n", scene, bounces,
              seed);
     return render_text(text, 2, strategies);
@@ -90,6 +90,47 @@ static void test_light_is_that_of_path_tracing(void **state)
     }
 }
 
+/* A wall under the sky, and before it a floor of white beams, with red grooves between them, which
+ * get a part of the sky alone. */
+static const char *grooves(void)
+{
+    static char text[4096];
+    int length = snprintf(text, sizeof text,
+                          "psd: 1\n"
+                          "camera: {location: [0, 2, 0], look_at: [0, 2, -5], angle: 60}\n"
+                          "image: {width: 96, height: 64}\n"
+                          "materials: {white: {diffuse: 0.7}, red: {diffuse: [0.9, 0, 0]}}\n" SKY
+                          "objects:\n"
+                          "  - quad: {corners: [[-9, -2, -5], [9, -2, -5], [9, 6, -5], [-9, 6, "
+                          "-5]], material: white}\n"
+                          "  - quad: {corners: [[-9, -0.5, 6], [9, -0.5, 6], [9, -0.5, -5], [-9, "
+                          "-0.5, -5]], material: red}\n");
+    for (int i = -15; i < 15; i++)
+        length +=
+            snprintf(text + length, sizeof text - (size_t)length,
+                     "  - box: {corners: [[%.1f, -0.5, -5], [%.1f, 0, 6]], material: white}\n",
+                     0.6 * i, 0.6 * i + 0.3);
+    return text;
+}
+
+/* What is red is dark here: with the mean light of both, the wall would get 1.4
+ * times as much of it. */
+static void test_grooves_have_light_of_their_own(void **state)
+{
+    (void)state;
+    double mean[2] = {0, 0};
+    static const char *const estimators[] = {"estimator=pathtrace:samples=512",
+                                             "estimator=gather:samples=16"};
+    for (int i = 0; i < 2; i++) {
+        struct rendering rendering = render_by(grooves(), estimators[i], "1", 1);
+        mean[i] = mean_of_all(&rendering.image, "indirect.R") -
+                  mean_of_all(&rendering.image, "indirect.G");
+        rendering_release(&rendering);
+    }
+    print_message("red of grooves: %.4f of the light\n", mean[1] / mean[0]);
+    assert_true(fabs(mean[1] / mean[0] - 1) < 0.05);
+}
+
 static void test_noise(void **state)
 {
     (void)state;
@@ -103,6 +144,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_light_is_that_of_path_tracing),
+        cmocka_unit_test(test_grooves_have_light_of_their_own),
         cmocka_unit_test(test_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

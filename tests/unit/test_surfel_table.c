@@ -38,10 +38,14 @@ static float light_at(ps_vec3 position)
     return 1.0f + position.x;
 }
 
+/* Every fourth surfel is on things of another material, which stand in the dark. */
+#define DARK_MATERIAL 7
+
 /* A floor of 4x4, lit more and more along x. */
 struct floor {
     struct bare_host bare;
     ps_vec3 positions[COUNT], normals[COUNT];
+    uint32_t materials[COUNT];
     float lengths[COUNT];
     ps_rgb irradiance[COUNT], sky[COUNT];
     struct surfels surfels;
@@ -59,7 +63,8 @@ static int make_floor(void **state)
         floor->positions[i] = position;
         floor->normals[i] = up;
         floor->lengths[i] = LENGTH;
-        floor->irradiance[i] = (ps_rgb){light_at(position), 2, 0};
+        floor->materials[i] = i % 4 == 0 ? DARK_MATERIAL : 0;
+        floor->irradiance[i] = i % 4 == 0 ? (ps_rgb){0, 0, 0} : (ps_rgb){light_at(position), 2, 0};
         floor->sky[i] = (ps_rgb){0, 0, light_at(position)};
     }
     floor->surfels = (struct surfels){
@@ -68,6 +73,7 @@ static int make_floor(void **state)
         .count = COUNT,
         .positions = floor->positions,
         .normals = floor->normals,
+        .materials = floor->materials,
         .lengths = floor->lengths,
         .irradiance = floor->irradiance,
         .sky = floor->sky,
@@ -128,6 +134,23 @@ static void test_finds_the_light_of_a_place(void **state)
     assert_float_equal(indirect, light_at(position), 0.02 * (double)light_at(position));
     assert_float_equal(even, 2.0, 1e-4);
     assert_float_equal(sky, indirect, 1e-4);
+}
+
+static void test_materials_have_light_of_their_own(void **state)
+{
+    const struct floor *floor = *state;
+    struct random random = {37};
+    struct gather_landing landing = landing_at((ps_vec3){1.7f, 2.2f, 0}, up, LENGTH, &random);
+    struct cached_irradiance known;
+    bool is_known = false;
+    landing.material = DARK_MATERIAL;
+    surfel_table_lookup(&floor->surfels, &landing, 1, &known, &is_known);
+    assert_true(is_known);
+    assert_true(known.indirect.r == 0.0f && known.indirect.g == 0.0f);
+    is_known = false;
+    landing.material = DARK_MATERIAL + 1;
+    surfel_table_lookup(&floor->surfels, &landing, 1, &known, &is_known);
+    assert_false(is_known);
 }
 
 static bool is_known_at(const struct floor *floor, ps_vec3 position, ps_vec3 normal, float length)
@@ -220,6 +243,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_finds_the_light_of_a_place),
+        cmocka_unit_test(test_materials_have_light_of_their_own),
         cmocka_unit_test(test_knows_nothing_elsewhere),
         cmocka_unit_test(test_leaves_short_rays_to_paths),
         cmocka_unit_test(test_focused_light_stays_narrow),

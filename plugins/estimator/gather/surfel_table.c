@@ -3,6 +3,7 @@
 #include <string.h>
 
 #define LEVELS 8          /* of cubes */
+#define MATERIALS 64u     /* that are told apart; others share their numbers */
 #define MOST_CUBES 511.0f /* along an axis, of the largest ones */
 #define BY_LENGTH 0.075f  /* side of a cube, in lengths of the ray */
 #define MOST_BY_LENGTH 0.6f
@@ -34,10 +35,10 @@ static uint64_t normal_key(ps_vec3 n)
 }
 
 /* A point, in sides of the largest cubes from the table's origin (what lies out of the scene's
- * bounds counts as at its border), and which way its surface faces. */
+ * bounds counts as at its border), which way its surface faces, and the surface's material. */
 struct cube_position {
     ps_vec3 point;
-    uint64_t normal;
+    uint64_t normal, material;
 };
 
 static float clamp(float along)
@@ -46,26 +47,28 @@ static float clamp(float along)
 }
 
 static struct cube_position cube_position_of(const struct surfels *surfels, ps_vec3 position,
-                                             ps_vec3 normal)
+                                             ps_vec3 normal, uint32_t material)
 {
     ps_vec3 p = ps_scale(ps_subtract(position, surfels->origin), 1.0f / surfels->largest);
-    return (struct cube_position){{clamp(p.x), clamp(p.y), clamp(p.z)}, normal_key(normal)};
+    return (struct cube_position){
+        {clamp(p.x), clamp(p.y), clamp(p.z)}, normal_key(normal), material % MATERIALS};
 }
 
-/* The key of the cube of a level that holds a position moved by so many sides, more than -1. */
+/* The key of the cube of a level that holds a position moved by so many sides, more than -1. From
+ * the top: 1, 16 bits for each axis, 6 for the material, 6 for the normal and 3 for the level. */
 static uint64_t cell_key(const struct cube_position *position, ps_vec3 moved, uint32_t level)
 {
     float scale = (float)(1u << level);
     uint32_t x = (uint32_t)(int32_t)(position->point.x * scale + moved.x);
     uint32_t y = (uint32_t)(int32_t)(position->point.y * scale + moved.y);
     uint32_t z = (uint32_t)(int32_t)(position->point.z * scale + moved.z);
-    return UINT64_C(1) << 63 | (uint64_t)x << 44 | (uint64_t)y << 28 | (uint64_t)z << 12 |
-           position->normal << 4 | level;
+    return UINT64_C(1) << 63 | (uint64_t)x << 47 | (uint64_t)y << 31 | (uint64_t)z << 15 |
+           position->material << 9 | position->normal << 3 | level;
 }
 
 static uint32_t level_of_key(uint64_t key)
 {
-    return key & 15;
+    return key & (LEVELS - 1);
 }
 
 static size_t hash(uint64_t key)
@@ -114,8 +117,8 @@ static uint32_t finest_level(const struct surfels *surfels, size_t i)
 static void list_cubes(const struct surfels *surfels, ps_key_entry *entries)
 {
     for (size_t i = 0; i < surfels->count; i++) {
-        struct cube_position position =
-            cube_position_of(surfels, surfels->positions[i], surfels->normals[i]);
+        struct cube_position position = cube_position_of(
+            surfels, surfels->positions[i], surfels->normals[i], surfels->materials[i]);
         for (uint32_t level = 0; level <= finest_level(surfels, i); level++)
             *entries++ = (ps_key_entry){cell_key(&position, (ps_vec3){0, 0, 0}, level), i};
     }
@@ -225,7 +228,8 @@ static void begin_queries(const struct surfels *surfels, const struct gather_lan
     for (uint32_t i = 0; i < n; i++) {
         const struct gather_landing *landing = &landings[i];
         struct query *query = &queries->all[i];
-        query->position = cube_position_of(surfels, landing->position, landing->normal);
+        query->position =
+            cube_position_of(surfels, landing->position, landing->normal, landing->material);
         query->moved = jitter(landing->normal, landing->numbers);
         float length = surfel_length(landing->length, landing->is_focused);
         query->level = level_of(surfels, BY_LENGTH * length);

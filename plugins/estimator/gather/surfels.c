@@ -64,6 +64,7 @@ static void land_rays(const struct finding *work, const struct paths_setting *se
         } else if (ps_rgb_maximum(hit->albedo) > 0.0f) {
             surfels->positions[place] = hit->position;
             surfels->normals[place] = hit->normal;
+            surfels->materials[place] = hit->material;
             surfels->lengths[place] =
                 surfel_length(paths->lengths[i] + hit->distance, paths->lengths[i] > 0.0f);
         }
@@ -106,15 +107,23 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
+/* Puts the values of surfels in their new order; `room` is for n values. */
+static void reorder(const struct surfels *surfels, const ps_key_entry *sorted, size_t n,
+                    size_t size, void *values, void *room)
+{
+    memcpy(room, values, n * size);
+    for (size_t i = 0; i < surfels->count; i++)
+        memcpy((char *)values + i * size, (char *)room + sorted[i].index * size, size);
+}
+
 /* By place, so that splats cull well, and without the rays that met nothing. */
 static ps_result sort(struct surfels *surfels, size_t n)
 {
     const ps_host *host = surfels->host;
     const ps_cells *cells = surfels->extension;
     ps_key_entry *entries = host->allocate(host, 2 * n * sizeof *entries, "surfels sorted");
-    ps_vec3 *copies = host->allocate(host, 2 * n * sizeof *copies, "surfels sorted");
-    float *lengths = host->allocate(host, n * sizeof *lengths, "surfels sorted");
-    if (entries && copies && lengths) {
+    void *room = host->allocate(host, n * sizeof(ps_vec3), "surfels sorted");
+    if (entries && room) {
         ps_lattice lattice = cells->lattice(host, surfels->origin, (double)surfels->largest / 512);
         for (size_t i = 0; i < n; i++) {
             if (!(surfels->lengths[i] > 0.0f))
@@ -123,20 +132,15 @@ static ps_result sort(struct surfels *surfels, size_t n)
                 cells->key(&lattice, surfel_facing(surfels->normals[i]), surfels->positions[i]);
             entries[surfels->count++] = (ps_key_entry){key, i};
         }
-        memcpy(copies, surfels->positions, n * sizeof *copies);
-        memcpy(copies + n, surfels->normals, n * sizeof *copies);
-        memcpy(lengths, surfels->lengths, n * sizeof *lengths);
         const ps_key_entry *sorted = cells->sort(entries, entries + n, surfels->count);
-        for (size_t i = 0; i < surfels->count; i++) {
-            surfels->positions[i] = copies[sorted[i].index];
-            surfels->normals[i] = copies[n + sorted[i].index];
-            surfels->lengths[i] = lengths[sorted[i].index];
-        }
+        reorder(surfels, sorted, n, sizeof(ps_vec3), surfels->positions, room);
+        reorder(surfels, sorted, n, sizeof(ps_vec3), surfels->normals, room);
+        reorder(surfels, sorted, n, sizeof(uint32_t), surfels->materials, room);
+        reorder(surfels, sorted, n, sizeof(float), surfels->lengths, room);
     }
-    bool failed = !entries || !copies || !lengths;
+    bool failed = !entries || !room;
     host->release(host, entries);
-    host->release(host, copies);
-    host->release(host, lengths);
+    host->release(host, room);
     return failed ? PS_ERROR_MEMORY : PS_OK;
 }
 
@@ -157,9 +161,11 @@ static ps_result find(struct finding *work)
     size_t n = choose_tiles(work) * work->rays;
     surfels->positions = host->allocate(host, n * sizeof(ps_vec3), "surfels");
     surfels->normals = host->allocate(host, n * sizeof(ps_vec3), "surfels");
+    surfels->materials = host->allocate(host, n * sizeof(uint32_t), "surfels");
     surfels->lengths = host->allocate(host, n * sizeof(float), "surfels");
     surfels->irradiance = host->allocate(host, n * sizeof(ps_rgb), "surfels");
-    if (!surfels->positions || !surfels->normals || !surfels->lengths || !surfels->irradiance)
+    if (!surfels->positions || !surfels->normals || !surfels->materials || !surfels->lengths ||
+        !surfels->irradiance)
         return PS_ERROR_MEMORY;
     memset(surfels->irradiance, 0, n * sizeof *surfels->irradiance);
     ps_result result = host->for_each_picture_tile(host, find_in_tile, work);
@@ -193,6 +199,7 @@ void surfels_release(struct surfels *surfels)
     const ps_host *host = surfels->host;
     host->release(host, surfels->positions);
     host->release(host, surfels->normals);
+    host->release(host, surfels->materials);
     host->release(host, surfels->lengths);
     host->release(host, surfels->irradiance);
     host->release(host, surfels->sky);

@@ -20,6 +20,7 @@ struct surfels {
     const ps_cells *extension; /* by which they are sorted */
     size_t count;
     ps_vec3 *positions, *normals;
+    uint32_t *materials;
     float *lengths;     /* of the rays that found them (surfel_length()), in scene units */
     ps_rgb *irradiance; /* W/m^2, of light that met other surfaces before; set by the caller */
     ps_rgb *sky;        /* of light straight from soft skies; NULL: lookups know none */

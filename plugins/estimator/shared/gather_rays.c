@@ -197,6 +197,7 @@ static void look_up(const struct gather_setting *setting, const struct batch *ba
         landings[n++] = (struct gather_landing){
             .position = hit->position,
             .normal = hit->normal,
+            .material = hit->material,
             .length = paths->lengths[i] + hit->distance,
             .is_focused = paths->lengths[i] > 0.0f,
             .numbers = {numbers[0], numbers[1]},

@@ -42,6 +42,7 @@ struct cached_irradiance {
 /* Where a ray landed. */
 struct gather_landing {
     ps_vec3 position, normal;
+    uint32_t material;
     float length;     /* of its way since a diffuse surface */
     bool is_focused;  /* perhaps: it came by mirrors, glass or gloss */
     float numbers[2]; /* random ones, of [0, 1) */
