@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#define COUNT (8 * SURFELS_GROUP - 10)
+#define COUNT (32 * SURFELS_OF_RATIO - 10)
 
 static ps_rgb splatted[COUNT], traced[COUNT], half[COUNT];
 
@@ -57,8 +57,8 @@ static void test_no_light_is_lost(void **state)
     (void)state;
     set(0.5f, 3.0f, 0.0f);
     correct();
-    for (size_t first = 0; first < COUNT; first += SURFELS_GROUP) {
-        size_t n = COUNT - first < SURFELS_GROUP ? COUNT - first : SURFELS_GROUP;
+    for (size_t first = 0; first < COUNT; first += SURFELS_OF_RATIO) {
+        size_t n = COUNT - first < SURFELS_OF_RATIO ? COUNT - first : SURFELS_OF_RATIO;
         ps_rgb is = sum(splatted, first, n), wanted = sum(traced, first, n);
         assert_float_equal(is.r, wanted.r, 1e-3);
         assert_float_equal(is.g, wanted.g, 1e-3);

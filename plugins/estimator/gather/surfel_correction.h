@@ -10,6 +10,10 @@
 
 #include "surfels.h"
 
+/* Surfels of a group, but for the last one. The ratio of many has less noise, but spreads among
+ * them what only paths have found, such as what rough gloss sends to a part of a wall. */
+enum { SURFELS_OF_RATIO = 16 };
+
 /* Corrects the surfels' irradiance, which is that of splats. `traced` is the irradiance by paths;
  * `half` is that by the first half of each surfel's paths, which tells the noise. PS_ERROR_MEMORY:
  * nothing happened. */

@@ -38,7 +38,7 @@ struct surfels {
 ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
                        struct surfels *surfels);
 
-/* Surfels that are corrected together, and lit together: so many, but for the last group. */
+/* Surfels whose rays are traced together: so many, but for the last group. */
 enum { SURFELS_GROUP = 64 };
 
 /* Those of a group: n from `first` on. */
