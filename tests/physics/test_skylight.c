@@ -113,8 +113,8 @@ static const char *grooves(void)
     return text;
 }
 
-/* What is red is dark here: with the mean light of both, the wall would get 1.4
- * times as much of it. */
+/* What is red is dark here: with the mean light of both, the wall would get 1.4 times as much of
+ * it. */
 static void test_grooves_have_light_of_their_own(void **state)
 {
     (void)state;

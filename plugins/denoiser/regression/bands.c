@@ -225,8 +225,8 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     add(row_of(user, row));
 }
 
-/* Puts sums over squares in place of B^2 and N^2, that of the noise over twice the radius. */
-static void average_squares(struct denoised_image *image, int radius)
+/* Puts sums over squares around in place of B^2 and N^2, whose square is twice as wide. */
+static void sum_squares(struct denoised_image *image, int radius)
 {
     sum_over_square(image, radius, image->signal);
     sum_over_square(image, 2 * radius, image->noise);
@@ -236,7 +236,7 @@ static void average_squares(struct denoised_image *image, int radius)
     image->host->parallel_for(image->host, image->height, take_larger_noise_of_row, image);
 }
 
-/* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one
+/* Adds the difference of `fine` and `coarse` of the first `count` images to the pixels of one
  * kind. */
 static void add_band_of_kind(struct denoised_images *images, int count, int radius,
                              enum pixel_kind kind)
@@ -250,7 +250,7 @@ static void add_band_of_kind(struct denoised_images *images, int count, int radi
     for (int i = 0; i < count; i++) {
         struct denoised_image *image = &images->of[i];
         image->host->parallel_for(image->host, image->height, measure_row, image);
-        average_squares(image, radius);
+        sum_squares(image, radius);
         image->host->parallel_for(image->host, image->height, add_row, image);
     }
 }

@@ -119,7 +119,7 @@ static float sign_of_noise(const struct denoised_image *image, size_t x, size_t 
     return random_sign((uint32_t)(y / side * side * image->width + x / side * side));
 }
 
-/* The noise by halves; and the largest one within NOISY along the row, into `scratch`. */
+/* The noise by halves. */
 static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
@@ -129,21 +129,16 @@ static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
         image->noise[first + x] = regression_shows_surface(&image->guides, (int)x, (int)row)
                                       ? noise_of_halves(image->view, first + x)
                                       : 0.0f;
-    for (size_t x = 0; x < image->width; x++) {
-        size_t from = x > NOISY ? x - NOISY : 0, end = x + NOISY + 1;
-        float most = 0.0f;
-        for (size_t i = from; i < end && i < image->width; i++)
-            most = ps_max(most, fabsf(image->noise[first + i]));
-        image->scratch[first + x] = most;
-    }
 }
 
 static float largest_noise_near(const struct denoised_image *image, size_t x, size_t y)
 {
-    size_t from = y > NOISY ? y - NOISY : 0, end = y + NOISY + 1;
+    size_t left = x > NOISY ? x - NOISY : 0, right = x + NOISY + 1;
+    size_t top = y > NOISY ? y - NOISY : 0, bottom = y + NOISY + 1;
     float most = 0.0f;
-    for (size_t i = from; i < end && i < image->height; i++)
-        most = ps_max(most, image->scratch[i * image->width + x]);
+    for (size_t row = top; row < bottom && row < image->height; row++)
+        for (size_t i = left; i < right && i < image->width; i++)
+            most = ps_max(most, fabsf(image->noise[row * image->width + i]));
     return most;
 }
 
@@ -166,8 +161,9 @@ static void clamp_pixel(const struct denoised_image *image, size_t x, size_t y, 
     size_t pixel = y * image->width + x;
     float first = brightness_at(image->fine, pixel), bright = brightness_at(image->light, at);
     bool known = image->view->even_r != NULL;
-    float noise = known ? largest_noise_near(image, x, y) : bright;
-    float limit = ps_max(FAR_ABOVE * ps_max(first, image->least), bright - OUTLIER_NOISE * noise);
+    float limit = FAR_ABOVE * ps_max(first, image->least);
+    if (known && bright > limit)
+        limit = ps_max(limit, bright - OUTLIER_NOISE * largest_noise_near(image, x, y));
     bool is_outlier = bright > limit && (!known || is_alone(image, x, y, bright));
     float keep = is_outlier ? limit / bright : 1.0f;
     for (int c = 0; c < REGRESSION_COLOURS; c++)

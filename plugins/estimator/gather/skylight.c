@@ -41,7 +41,7 @@ static void light_group(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     struct surfels *surfels = work->surfels;
     const ps_host *host = surfels->host;
-    struct surfel_group group = surfels_group(surfels, index);
+    struct surfel_group group = surfels_group(surfels, SURFELS_GROUP, index);
     ps_ray rays[SURFELS_GROUP];
     ps_hit hits[SURFELS_GROUP];
     ps_rgb radiance[SURFELS_GROUP];
@@ -76,6 +76,6 @@ ps_result skylight_find(const ps_pass *pass, uint64_t rays, struct surfels *surf
     surfels->sky = host->allocate(host, surfels->count * sizeof *surfels->sky, "surfels");
     if (!surfels->sky)
         return PS_ERROR_MEMORY;
-    host->parallel_for(host, surfels_group_count(surfels), light_group, &work);
+    host->parallel_for(host, surfels_group_count(surfels, SURFELS_GROUP), light_group, &work);
     return host->cancelled(host) ? PS_CANCELLED : PS_OK;
 }

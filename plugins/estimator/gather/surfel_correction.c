@@ -27,12 +27,12 @@ struct group {
 static struct group group_at(const struct surfels *surfels, const ps_rgb *traced,
                              const ps_rgb *half, size_t index)
 {
-    size_t first = index * SURFELS_OF_RATIO, left = surfels->count - first;
+    struct surfel_group group = surfels_group(surfels, SURFELS_OF_RATIO, index);
     return (struct group){
-        .splatted = surfels->irradiance + first,
-        .traced = traced + first,
-        .half = half + first,
-        .n = left < SURFELS_OF_RATIO ? left : SURFELS_OF_RATIO,
+        .splatted = surfels->irradiance + group.first,
+        .traced = traced + group.first,
+        .half = half + group.first,
+        .n = group.n,
     };
 }
 
@@ -95,7 +95,7 @@ static void mix(const struct group *group, float weight, int c)
 ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const ps_rgb *half)
 {
     const ps_host *host = surfels->host;
-    size_t count = (surfels->count + SURFELS_OF_RATIO - 1) / SURFELS_OF_RATIO;
+    size_t count = surfels_group_count(surfels, SURFELS_OF_RATIO);
     struct group *groups = host->allocate(host, count * sizeof *groups, "surfels");
     if (!groups)
         return PS_ERROR_MEMORY;

@@ -21,7 +21,7 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct step *step = user;
     const struct surfels *surfels = step->surfels;
-    struct surfel_group group = surfels_group(surfels, index);
+    struct surfel_group group = surfels_group(surfels, SURFELS_GROUP, index);
     struct gather gather = {.setting = &step->setting, .index = step->first_index + index};
     if (surfels->host->cancelled(surfels->host))
         return;
@@ -47,7 +47,7 @@ static ps_result take_step(struct step *step, struct surfels *surfels)
     if (!step->traced)
         return PS_ERROR_MEMORY;
     step->half = step->traced + surfels->count;
-    host->parallel_for(host, surfels_group_count(surfels), trace_group, step);
+    host->parallel_for(host, surfels_group_count(surfels, SURFELS_GROUP), trace_group, step);
     ps_result result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
     if (result == PS_OK)
         result = surfels_correct(surfels, step->traced, step->half);
@@ -79,7 +79,7 @@ ps_result surfel_paths_correct(const ps_pass *pass, uint32_t roulette, uint64_t 
                     .cache = surfels,
                     .cache_has_indirect = true,
                     .cache_has_sky = surfels->sky != NULL},
-        .first_index = pass->tile_count + surfels_group_count(surfels),
+        .first_index = pass->tile_count + surfels_group_count(surfels, SURFELS_GROUP),
     };
     ps_result result = take_step(&first, surfels);
     if (result == PS_OK && has_second_step)

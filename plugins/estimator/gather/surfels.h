@@ -38,7 +38,7 @@ struct surfels {
 ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
                        struct surfels *surfels);
 
-/* Surfels whose rays are traced together: so many, but for the last group. */
+/* Surfels whose rays are traced together. */
 enum { SURFELS_GROUP = 64 };
 
 /* Those of a group: n from `first` on. */
@@ -46,15 +46,17 @@ struct surfel_group {
     size_t first, n;
 };
 
-static inline uint64_t surfels_group_count(const struct surfels *surfels)
+/* All surfels in groups of `size`, but for the last one. */
+static inline size_t surfels_group_count(const struct surfels *surfels, size_t size)
 {
-    return (surfels->count + SURFELS_GROUP - 1) / SURFELS_GROUP;
+    return (surfels->count + size - 1) / size;
 }
 
-static inline struct surfel_group surfels_group(const struct surfels *surfels, uint64_t index)
+static inline struct surfel_group surfels_group(const struct surfels *surfels, size_t size,
+                                                size_t index)
 {
-    size_t first = index * SURFELS_GROUP, left = surfels->count - first;
-    return (struct surfel_group){first, left < SURFELS_GROUP ? left : SURFELS_GROUP};
+    size_t first = index * size, left = surfels->count - first;
+    return (struct surfel_group){first, left < size ? left : size};
 }
 
 void surfels_release(struct surfels *surfels);
