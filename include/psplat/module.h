@@ -33,7 +33,7 @@
 
 #define PS_MODULE_MAGIC UINT64_C(0x3154414c50535030) /* "0PSPLAT1" */
 #define PS_ABI_MAJOR 1u
-#define PS_ABI_MINOR 16u
+#define PS_ABI_MINOR 17u
 
 /* Kinds of strategy, in pipeline order. */
 typedef enum ps_kind {

@@ -133,6 +133,7 @@ typedef struct ps_filter_vtable {
 /* Since 1.8: it splats onto the picture in every scene, so that there has to be memory for what
  * splats light. */
 #define PS_ESTIMATOR_SPLATS 8u
+#define PS_ESTIMATOR_VARIANCE 16u /* since 1.17: it sets ps_tile.variance */
 
 typedef struct ps_estimator_vtable {
     uint32_t size;
@@ -215,6 +216,10 @@ typedef struct ps_image_view {
      * their indirect light is the mean of what the pixels around, up to two away, found on the same
      * surfaces: its noise is not a pixel's own. */
     uint32_t edge_samples;
+    /* Since 1.17, where the table asks for it: the variance of the mean of the three channels of
+     * the indirect irradiance, (W/m^2)^2, which tells the noise of some pixels in a single pass; 0:
+     * it is not known. NULL where the estimator tells none, and where there are several passes. */
+    const float *variance;
 } ps_image_view;
 
 /* Whether a pixel has light to denoise: false where nothing is seen, or a mirror alone with nothing
@@ -236,6 +241,8 @@ static inline int ps_image_has_surface(const ps_image_view *image, size_t pixel)
 #define PS_DENOISER_DIRECT 4u
 
 #define PS_DENOISER_ERROR 8u /* since 1.3: filter() fills in ps_image_view.error */
+
+#define PS_DENOISER_VARIANCE 16u /* since 1.17: ps_image_view.variance is there */
 
 typedef struct ps_denoiser_vtable {
     uint32_t size;

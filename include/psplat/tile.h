@@ -23,6 +23,15 @@ static inline ps_rgb ps_tile_reflectance(const ps_tile *tile, uint32_t lane)
                     tile->albedo_b[lane] * tile->throughput_b[lane]};
 }
 
+/* How wide a pixel is at a depth, in the scene's units. */
+static inline float ps_pixel_size(const ps_camera *camera, float depth)
+{
+    float across = ps_length(camera->across);
+    return camera->projection == PS_ORTHOGRAPHIC
+               ? across
+               : depth * across / ps_dot(camera->forward, camera->corner);
+}
+
 /* The pixels of a tile that see a surface. */
 typedef struct ps_points {
     size_t count;

@@ -250,6 +250,9 @@ typedef struct ps_tile {
      * sr), besides albedo / pi * irradiance. NULL where the estimator's table does not ask for
      * it. */
     float *radiance_r, *radiance_g, *radiance_b;
+    /* Since 1.17, what an estimator may set: the variance of the mean of the three channels of
+     * irradiance / weight, (W/m^2)^2, where its samples tell that reliably; 0: it is not known. */
+    float variance[PS_TILE_PIXELS];
 } ps_tile;
 
 #endif

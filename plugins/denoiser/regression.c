@@ -27,7 +27,9 @@
  * fit, with random signs (the wild bootstrap, Wu 1986). That needs noise that is independent from
  * pixel to pixel, as that of paths is and that of splats is not. At edges, in gloss and behind a
  * lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of
- * pixels take one sign (the dependent wild bootstrap, Shao 2010).
+ * pixels take one sign (the dependent wild bootstrap, Shao 2010). Where the estimator tells the
+ * variance of a pixel, that pixel is a last band, judged by itself: contact shadows are often
+ * narrower than any fit.
  *
  * Bright samples of few pixels would leave speckles in narrow bands. So each pixel is limited to
  * twice the first fit (if the excess may be noise and, where halves are known, few pixels near it
@@ -279,7 +281,7 @@ static const ps_param params[] = {
 
 static const ps_denoiser_vtable vtable = {
     .size = sizeof vtable,
-    .flags = PS_DENOISER_HALVES | PS_DENOISER_DIRECT | PS_DENOISER_ERROR,
+    .flags = PS_DENOISER_HALVES | PS_DENOISER_DIRECT | PS_DENOISER_ERROR | PS_DENOISER_VARIANCE,
     .filter = filter,
     .pixel_bytes = (GUIDES + SCRATCH) * sizeof(float) + REGRESSION_BOUNDS_PIXEL +
                    REGRESSION_FITS_PIXEL + IMAGE_BYTES,

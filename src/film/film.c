@@ -118,6 +118,16 @@ ps_result film_add_gloss(struct film *film, struct error *error)
     return add_planes(film, is_gloss, error);
 }
 
+static bool is_variance(int plane)
+{
+    return plane == FILM_VARIANCE;
+}
+
+ps_result film_add_variance(struct film *film, struct error *error)
+{
+    return add_planes(film, is_variance, error);
+}
+
 static ps_result empty_planes(struct film *film, struct error *error)
 {
     size_t bytes = film->width * film->height * sizeof(float);

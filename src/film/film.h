@@ -38,7 +38,8 @@ enum film_plane {
     FILM_HARD_R,
     FILM_HARD_G,
     FILM_HARD_B,
-    FILM_GLOSS, /* share of the albedo that is not diffuse */
+    FILM_GLOSS,    /* share of the albedo that is not diffuse */
+    FILM_VARIANCE, /* sum over passes of that of the irradiance, as far as the estimator knows it */
     FILM_PLANES
 };
 
@@ -76,6 +77,9 @@ ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apa
 
 /* Lets it tell gloss from diffuse surfaces. */
 ps_result film_add_gloss(struct film *film, struct error *error);
+
+/* Lets it keep the variance that the estimator tells. */
+ps_result film_add_variance(struct film *film, struct error *error);
 
 /* Empties the film for a pass, and makes the planes anew that were taken out of it. */
 ps_result film_begin_pass(struct film *film, uint32_t number, struct error *error);

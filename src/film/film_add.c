@@ -146,6 +146,15 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
     add_feature(film, FILM_ALBEDO_R + channel, row, albedo, from->glossy);
 }
 
+/* Where the first surface on the way stands for the pixel, the irradiance is not that one's. */
+static void add_variance(struct film *film, const struct tile_row *row)
+{
+    float variance[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++)
+        variance[i] = has_first_surface(row, i) ? 0.0f : row->tile->variance[row->lane + i];
+    add_seen(film, FILM_VARIANCE, row, variance);
+}
+
 static void add_light(struct film *film, const struct tile_row *row)
 {
     const ps_tile *tile = row->tile;
@@ -183,6 +192,7 @@ static void add_light(struct film *film, const struct tile_row *row)
     add_emitted(film, row);
     for (int channel = 0; channel < 3; channel++)
         add_reflected(film, row, channel, &channels[channel]);
+    add_variance(film, row);
 }
 
 static void add_geometry(struct film *film, const struct tile_row *row)

@@ -385,6 +385,7 @@ void gbuffer_clear_indirect(struct gbuffer *gbuffer)
         memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);
         memset(tile->irradiance_b, 0, sizeof tile->irradiance_b);
         memset(tile->weight, 0, sizeof tile->weight);
+        memset(tile->variance, 0, sizeof tile->variance);
         clear_radiance(gbuffer, i);
     }
 }

@@ -163,6 +163,7 @@ static void find_surfaces(const ps_host *host, uint32_t index, ps_tile *tile)
     memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);
     memset(tile->irradiance_b, 0, sizeof tile->irradiance_b);
     memset(tile->weight, 0, sizeof tile->weight);
+    memset(tile->variance, 0, sizeof tile->variance);
 }
 
 /* The caller's tile may be that of an older interface, which is shorter. */

@@ -35,6 +35,7 @@ static const char *const plane_names[FILM_PLANES] = {
     [FILM_HARD_G] = "hard.G",
     [FILM_HARD_B] = "hard.B",
     [FILM_GLOSS] = "gloss",
+    [FILM_VARIANCE] = "variance",
 };
 
 #define NAME_SIZE 64

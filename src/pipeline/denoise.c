@@ -21,10 +21,18 @@ void mend_rgb(struct render *render, struct rgb_planes planes, uint64_t *refused
         mend_plane(planes.r, pixels) + mend_plane(planes.g, pixels) + mend_plane(planes.b, pixels);
 }
 
-/* `error`: see ps_image_view; NULL where nobody asks. */
-static ps_image_view image_of(const struct render *render, struct rgb_planes indirect,
-                              const struct halves *halves, float *error)
+/* What is denoised: the indirect light, or a part of the direct light. */
+struct part {
+    int first; /* plane of the film, FILM_REFLECTED_R or FILM_HARD_R; negative: indirect */
+    struct rgb_planes light, copy;
+    struct halves halves;
+    const float *variance; /* see ps_image_view */
+    float *estimate;       /* NULL: none is made */
+};
+
+static ps_image_view image_of(const struct render *render, const struct part *part)
 {
+    const struct halves *halves = &part->halves;
     const struct film *film = &render->film;
     float *const *planes = film->planes;
     return (ps_image_view){
@@ -32,9 +40,9 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
         .width = (uint32_t)film->width,
         .height = (uint32_t)film->height,
         .passes = film->passes,
-        .r = indirect.r,
-        .g = indirect.g,
-        .b = indirect.b,
+        .r = part->light.r,
+        .g = part->light.g,
+        .b = part->light.b,
         .albedo_r = planes[FILM_ALBEDO_R],
         .albedo_g = planes[FILM_ALBEDO_G],
         .albedo_b = planes[FILM_ALBEDO_B],
@@ -56,9 +64,10 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
         .odd_g = halves->odd.g,
         .odd_b = halves->odd.b,
         .gloss = planes[FILM_GLOSS],
-        .error = error,
+        .error = part->estimate,
         .odd_share = halves->odd_share,
         .edge_samples = render->settings->aa_samples,
+        .variance = part->variance,
     };
 }
 
@@ -142,14 +151,6 @@ static void replace(float *restrict sum, const float *restrict old, const float 
         sum[i] = fmaxf(sum[i] - old[i], 0.0f) + new[i];
 }
 
-/* What is denoised: the indirect light, or a part of the direct light. */
-struct part {
-    int first; /* plane of the film, FILM_REFLECTED_R or FILM_HARD_R; negative: indirect */
-    struct rgb_planes light, copy;
-    struct halves halves;
-    float *estimate; /* NULL: none is made */
-};
-
 enum { MOST_PARTS = 3 };
 _Static_assert(MOST_PARTS <= PS_DENOISER_IMAGES, "all parts at once");
 
@@ -174,7 +175,7 @@ static ps_result filter(const struct render *render, const struct part *parts, s
     const ps_denoiser_vtable *table = &strategy->type->table.denoiser;
     ps_image_view views[MOST_PARTS];
     for (size_t i = 0; i < count; i++)
-        views[i] = image_of(render, parts[i].light, &parts[i].halves, parts[i].estimate);
+        views[i] = image_of(render, &parts[i]);
     return count == 1 ? table->filter(strategy->state, strategy->host, views)
                       : table->filter_all(strategy->state, strategy->host, views, (uint32_t)count);
 }
@@ -250,8 +251,13 @@ static size_t add_direct_parts(const struct render *render, struct part *parts, 
 ps_result denoise_film(struct render *render, struct rgb_planes indirect,
                        const struct halves *halves, float *estimate, struct error *error)
 {
-    struct part parts[MOST_PARTS] = {
-        {.first = -1, .light = indirect, .halves = *halves, .estimate = estimate}};
+    struct part parts[MOST_PARTS] = {{
+        .first = -1,
+        .light = indirect,
+        .halves = *halves,
+        .variance = render->film.passes == 1 ? render->film.planes[FILM_VARIANCE] : NULL,
+        .estimate = estimate,
+    }};
     if (!strategy_in(render, PS_DENOISER)->type->table.denoiser.filter)
         return PS_OK;
     size_t count = add_direct_parts(render, parts, 1);

@@ -176,7 +176,8 @@ static uint64_t mend_tile(ps_tile *tile)
     uint64_t bad = mend_plane(tile->irradiance_r, PS_TILE_PIXELS) +
                    mend_plane(tile->irradiance_g, PS_TILE_PIXELS) +
                    mend_plane(tile->irradiance_b, PS_TILE_PIXELS) +
-                   mend_plane(tile->weight, PS_TILE_PIXELS);
+                   mend_plane(tile->weight, PS_TILE_PIXELS) +
+                   mend_plane(tile->variance, PS_TILE_PIXELS);
     if (tile->radiance_r)
         bad += mend_plane(tile->radiance_r, PS_TILE_PIXELS) +
                mend_plane(tile->radiance_g, PS_TILE_PIXELS) +

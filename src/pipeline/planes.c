@@ -54,6 +54,7 @@ struct planes planes_wanted(const struct render_settings *settings, const struct
         .radiance = (estimator & PS_ESTIMATOR_RADIANCE) != 0,
         .ids = (denoiser & PS_DENOISER_IDS) != 0,
         .odd = (denoiser & PS_DENOISER_HALVES) != 0 && sums,
+        .variance = (estimator & PS_ESTIMATOR_VARIANCE) && (denoiser & PS_DENOISER_VARIANCE),
     };
     if (scene)
         add_of_scene(&planes, settings, scene, denoiser);

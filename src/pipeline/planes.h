@@ -26,6 +26,7 @@ struct planes {
     bool radiance;    /* G-buffer: indirect radiance */
     bool ids;         /* film: objects and materials */
     bool odd;         /* film: indirect light of the odd passes */
+    bool variance;    /* film: variance of the irradiance */
     /* Film: direct light that is reflected, with that of hard shadows apart, and its halves: of
      * each pass, or else of the odd passes. */
     bool reflected, reflected_hard, halves_of_pass;

@@ -91,6 +91,8 @@ static ps_result add_to_film(struct render *render, const struct planes *planes,
     ps_result result = PS_OK;
     if (planes->gloss)
         result = film_add_gloss(film, error);
+    if (result == PS_OK && planes->variance)
+        result = film_add_variance(film, error);
     if (result == PS_OK && planes->ids)
         result = film_add_ids(film, error);
     if (result == PS_OK && planes->odd)

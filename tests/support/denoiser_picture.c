@@ -106,6 +106,7 @@ static ps_image_view view_of(struct picture *picture, float coverage[PIXELS])
         .odd_b = picture->halves ? picture->halves[1][2] : NULL,
         .odd_share = 0.5f,
         .edge_samples = picture->edge_samples,
+        .variance = picture->variance,
     };
 }
 

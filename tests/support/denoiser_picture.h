@@ -17,6 +17,7 @@ struct picture {
     float (*halves)[3][PIXELS]; /* light of even and of odd passes, two in all; NULL: one pass */
     const float *gloss;         /* share of the albedo that is gloss; NULL: none */
     uint32_t edge_samples;      /* of a pixel at an edge */
+    const float *variance;      /* of the irradiance; 0 where it is not known; NULL: nowhere */
 };
 
 void set_vector(float (*planes)[PIXELS], int pixel, ps_vec3 v);

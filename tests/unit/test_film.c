@@ -402,6 +402,29 @@ static void test_first_glossy_surface(void **state)
     assert_true(bench.gbuffer.glossy[0].depth[1] == 0);
 }
 
+/* The variance is that of the irradiance of what is seen: not where gloss stands for the pixel, nor
+ * where its own sample is left out. */
+static void test_variance(void **state)
+{
+    (void)state;
+    struct error error;
+    static const bool left_out[PS_TILE_PIXELS] = {[3] = true};
+    assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
+    assert_int_equal(film_add_variance(&bench.film, &error), PS_OK);
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    for (uint32_t lane = 0; lane < 4; lane++) {
+        see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, 1);
+        bench.gbuffer.tiles[0].variance[lane] = 9;
+    }
+    see_nothing(&bench.gbuffer.tiles[0], 1);
+    meet_gloss(2);
+    film_add_tile(&bench.film, &bench.gbuffer, 0, left_out);
+    for (uint32_t x = 0; x < 4; x++)
+        expect(FILM_VARIANCE, x, 0, x == 0 ? 9 : 0);
+    gbuffer_clear_indirect(&bench.gbuffer);
+    assert_true(bench.gbuffer.tiles[0].variance[0] == 0);
+}
+
 /* A lane whose path met a mirror and then nothing, with value 3 in all that it is. */
 static void meet_mirror(uint32_t lane)
 {
@@ -618,6 +641,7 @@ int main(void)
         FILM_TEST(test_samples_take_the_place_of_a_lane),
         FILM_TEST(test_many_samples_of_a_pixel),
         FILM_TEST(test_first_glossy_surface),
+        FILM_TEST(test_variance),
         FILM_TEST(test_mirror_with_nothing_behind),
         FILM_TEST(test_mirror_beside_a_surface),
         FILM_TEST(test_albedo_is_no_more_than_1),

@@ -27,6 +27,7 @@ static struct film any_film(uint32_t number)
     assert_int_equal(film_add_ids(&film, &error), PS_OK);
     assert_int_equal(film_add_halves(&film, &error), PS_OK);
     assert_int_equal(film_add_reflected(&film, true, true, &error), PS_OK);
+    assert_int_equal(film_add_variance(&film, &error), PS_OK);
     assert_int_equal(film_begin_pass(&film, number, &error), PS_OK);
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PIXELS && film.planes[plane]; i++) {

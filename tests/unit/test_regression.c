@@ -309,6 +309,57 @@ static void test_bright_samples_leave_no_bumps(void **state)
     assert_true(left < 0.1);
 }
 
+/* Pixels that stand alone, one in eleven of every sixth row. */
+static bool stands_alone(int pixel)
+{
+    return pixel / WIDTH % 6 == 2 && pixel % WIDTH % 11 == 5;
+}
+
+/* Even light with noise, of which pixels that stand alone have three times as much or a quarter.
+ * How much of that is left: 1 is all. */
+static double left_of_single_pixels(const float *variance)
+{
+    enum { SEEDS = 8 };
+    double sum = 0, count = 0;
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        struct random random = {500 + seed};
+        struct picture *picture = level_floor();
+        picture->variance = variance;
+        for (int i = 0; i < PIXELS; i++) {
+            float noisy = random_between(&random, 0.8f, 1.2f);
+            float light = !stands_alone(i) ? noisy : i % 2 ? 3.0f : 0.25f;
+            set_vector(picture->light, i, (ps_vec3){light, light, light});
+        }
+        denoise(picture, CHOICE, 2);
+        for (int i = 0; i < PIXELS; i++)
+            if (stands_alone(i)) {
+                sum += ((double)picture->light[1][i] - 1) / (i % 2 ? 2 : -0.75);
+                count++;
+            }
+        free(picture);
+    }
+    return sum / count;
+}
+
+/* A single pass cannot know that they are no noise, unless their variance says so. */
+static void test_pixels_of_known_variance_stay(void **state)
+{
+    (void)state;
+    static float small[PIXELS], large[PIXELS], none[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        small[i] = 0.01f * PS_PI * PS_PI; /* deviations of 0.1 and 1.2 of the light */
+        large[i] = 1.44f * PS_PI * PS_PI;
+    }
+    double kept = left_of_single_pixels(small), lost = left_of_single_pixels(large);
+    double unknown = left_of_single_pixels(none);
+    print_message("of single pixels %.3f is left by a small variance, %.3f by a large one, %.3f "
+                  "where it is not known\n",
+                  kept, lost, unknown);
+    assert_true(kept > 0.95);
+    assert_true(fabs(lost) < 0.05);
+    assert_true(fabs(unknown) < 0.05);
+}
+
 /* A disc of light ten pixels wide, as a caustic is: halves tell that it is no noise, a single pass
  * cannot know. */
 static double lost_of_disc(float (*halves)[3][PIXELS])
@@ -659,6 +710,7 @@ int main(void)
         cmocka_unit_test(test_shared_noise_of_gloss_is_noise),
         cmocka_unit_test(test_shared_noise_at_edges_is_noise),
         cmocka_unit_test(test_bright_samples_leave_no_bumps),
+        cmocka_unit_test(test_pixels_of_known_variance_stay),
         cmocka_unit_test(test_what_is_no_noise_stays),
         cmocka_unit_test(test_sun_beside_noise_stays),
         cmocka_unit_test(test_outliers_spread),

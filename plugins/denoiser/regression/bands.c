@@ -9,11 +9,13 @@
 
 /* c of that formula: where the wider band was kept, and where it was not. Past the first band of a
  * single pass, whose noise contains some of the light, GUESSED_THRESHOLD takes the place of
- * THRESHOLD; in the last band, of the pixels themselves, PIXELS_THRESHOLD. */
+ * THRESHOLD; in the last band, of the pixels themselves, PIXELS_THRESHOLD, and ALONE_THRESHOLD
+ * where each is judged by itself. */
 #define THRESHOLD 2.0f
 #define THRESHOLD_ALONE 4.0f
 #define GUESSED_THRESHOLD 1.2f
 #define PIXELS_THRESHOLD 1.5f
+#define ALONE_THRESHOLD 3.0f
 
 /* Bands of R up to NARROW take what is larger, the mean of the noise over the wider square or that
  * over the square of the signal: which counts for so much, being that of few blobs, and for half of
@@ -310,6 +312,40 @@ static void add_pixels(struct denoised_images *images)
         add_band(images, images->halved, PIXELS_WINDOW);
 }
 
+/* A pixel whose variance is known, in a picture that has no halves. The noise of the sum of the
+ * light's channels follows from the variance of the mean of the irradiance's. */
+static void add_known_pixel(const struct denoised_image *image, size_t i, size_t at)
+{
+    float noise = 9.0f / (PS_PI * PS_PI) * image->view->variance[i];
+    float off = brightness_at(image->light, at) - brightness_at(image->sum, i);
+    float keep = keep_of(off * off, ALONE_THRESHOLD * noise);
+    for (int c = 0; c < REGRESSION_COLOURS; c++)
+        image->sum[c][i] += keep * (image->light[c][at] - image->sum[c][i]);
+    if (image->error)
+        image->error[i] = keep * keep * noise * image->inverse_square[i] +
+                          (1.0f - keep) * (1.0f - keep) * image->error[i];
+}
+
+static void add_known_of_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct denoised_image *image = user;
+    for (size_t x = 0; x < image->width; x++) {
+        size_t i = row * image->width + x;
+        if (image->view->variance[i] > 0.0f &&
+            regression_shows_surface(&image->guides, (int)x, (int)row))
+            add_known_pixel(image, i, regression_at(&image->guides, (int)x, (int)row));
+    }
+}
+
+static void add_known_pixels(struct denoised_images *images)
+{
+    for (int i = images->halved; i < images->count; i++)
+        if (images->of[i].view->variance)
+            images->of[i].host->parallel_for(images->of[i].host, images->of[i].height,
+                                             add_known_of_row, &images->of[i]);
+}
+
 void regression_add_bands(struct denoised_images *images)
 {
     regression_fit_all(images, bandwidths[0], clamped_of, coarse_of);
@@ -323,4 +359,5 @@ void regression_add_bands(struct denoised_images *images)
             swap_fits(&images->of[i]);
     }
     add_pixels(images);
+    add_known_pixels(images);
 }

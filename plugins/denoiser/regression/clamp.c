@@ -27,14 +27,6 @@ static void irradiance_of(const float light[3], const float albedo[3], float irr
                                              : 0.0f;
 }
 
-static float pixel_size(const ps_camera *camera, float depth)
-{
-    float across = ps_length(camera->across);
-    return camera->projection == PS_ORTHOGRAPHIC
-               ? across
-               : depth * across / ps_dot(camera->forward, camera->corner);
-}
-
 static void take_pixel(const struct denoised_image *image, size_t pixel, size_t at)
 {
     const ps_image_view *view = image->view;
@@ -53,7 +45,7 @@ static void take_pixel(const struct denoised_image *image, size_t pixel, size_t 
     guides->position[1][at] = view->position_y[pixel];
     guides->position[2][at] = view->position_z[pixel];
     guides->gloss[at] = view->gloss ? view->gloss[pixel] : 0.0f;
-    guides->size[at] = pixel_size(&image->camera, view->depth[pixel]);
+    guides->size[at] = ps_pixel_size(&image->camera, view->depth[pixel]);
     irradiance_of(light, albedo, irradiance);
     for (int c = 0; c < 3; c++)
         image->light[c][at] = irradiance[c];

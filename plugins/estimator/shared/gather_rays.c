@@ -49,6 +49,7 @@ void gather_begin(struct gather *gather)
     gather->expected_samples[0] = gather->expected_samples[1] = gather->setting->samples;
     for (size_t i = 0; i < gather->points.count; i++) {
         gather->first.factors[i] = 1.0f;
+        gather->first.nearest[i] = INFINITY;
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
     }
     face_mean_normals(gather);
@@ -93,6 +94,29 @@ static void add(struct gather *gather, size_t i, ps_rgb found, float weight, boo
         gather->half[i] = ps_rgb_add(gather->half[i], weighed);
 }
 
+static float mean_of_channels(ps_rgb light)
+{
+    return (light.r + light.g + light.b) * (1.0f / 3.0f);
+}
+
+static void add_square(struct gather *gather, size_t i, ps_rgb found, float weight)
+{
+    float light = weight * mean_of_channels(found);
+    gather->squares[i] += light * light;
+}
+
+float gather_variance(const struct gather *gather, size_t point, uint64_t samples)
+{
+    float n = (float)(GATHER_FIRST + guided_of(gather, point, samples));
+    float sum = mean_of_channels(gather->irradiance[point]), squares = gather->squares[point];
+    for (int number = 0; number < GATHER_FIRST; number++) {
+        float weight = gather->first_weights[number][point];
+        float light = weight * mean_of_channels(gather->first.found[number][point]);
+        squares += light * light;
+    }
+    return ps_max(squares - sum * sum / n, 0.0f) * n / (n - 1.0f);
+}
+
 int gather_half_of(const struct gather *gather, size_t point)
 {
     return ps_lane_along_curve(gather->points.lanes[point]) >= PS_TILE_PIXELS / 2;
@@ -129,7 +153,9 @@ static void end_sample(struct gather *gather, const struct batch *batch, size_t 
     } else {
         float ratio = smooth_ratio(gather, i, batch->bins[k]);
         float guided = gather->guided_expected[i] * ratio * balanced(gather, i, ratio);
-        add(gather, i, found, gather->guided_share[i] * guided, half);
+        float weight = gather->guided_share[i] * guided;
+        add(gather, i, found, weight, half);
+        add_square(gather, i, found, weight);
     }
     if (round->teaches)
         add_to_guide(gather, i, batch->bins[k], found);
@@ -146,7 +172,9 @@ static void add_first(struct gather *gather)
                 continue;
             float share = (float)gather->taken[i] * gather->guided_share[i];
             float ratio = smooth_ratio(gather, i, gather->first.bins[number][i]);
-            add(gather, i, found, share * balanced(gather, i, ratio), number < GATHER_FIRST / 2);
+            float weight = share * balanced(gather, i, ratio);
+            add(gather, i, found, weight, number < GATHER_FIRST / 2);
+            gather->first_weights[number][i] += weight;
         }
 }
 
@@ -271,6 +299,15 @@ static void scatter_paths(const struct gather_setting *setting, struct batch *ba
     paths->count = alive;
 }
 
+static void note_nearest(struct gather *gather, const struct batch *batch,
+                         const struct paths *paths, const struct paths_segment *segment)
+{
+    for (uint32_t i = 0; i < paths->count; i++) {
+        float *nearest = &gather->first.nearest[batch->of[paths->pixels[i]]];
+        *nearest = ps_min(*nearest, segment->hits[i].distance);
+    }
+}
+
 static void take_batch(struct gather *gather, struct batch *batch)
 {
     const struct gather_setting *setting = gather->setting;
@@ -279,6 +316,8 @@ static void take_batch(struct gather *gather, struct batch *batch)
     start_paths(gather, batch, &paths, &segment);
     for (uint32_t number = 1; paths.count > 0; number++) {
         paths_intersect(&setting->paths, &batch->points, number, &paths, &segment);
+        if (number == 1 && batch->round->is_first)
+            note_nearest(gather, batch, &paths, &segment);
         paths_add_emitted(&setting->paths, &paths, &segment, batch->found);
         light_paths(setting, batch, number, &paths, &segment);
         paths_draw_numbers(&setting->paths, number + 1, batch->indices, &paths, &segment);

@@ -72,6 +72,7 @@ struct gather_first {
     /* Factors on the number of guided samples of each point (sample_factors.h): set by
      * gather_begin() to 1. */
     float factors[PS_TILE_PIXELS];
+    float nearest[PS_TILE_PIXELS]; /* least distance that a ray of a point went */
     ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
     struct guide_bin bins[GATHER_FIRST][PS_TILE_PIXELS];
     uint32_t guide_count;
@@ -90,6 +91,9 @@ struct gather {
      * the first half of each round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
     struct gather_first first;
+    /* Sums over the guided rays of the squares of what each adds to the mean of the irradiance's
+     * channels; and what the rays of the first round are weighed with. */
+    float squares[PS_TILE_PIXELS], first_weights[GATHER_FIRST][PS_TILE_PIXELS];
     /* Of the round under way, for each point: its samples, and the index of the first. */
     uint64_t taken[PS_TILE_PIXELS], starts[PS_TILE_PIXELS];
     /* What one of a point's guided samples is of all, and how many of them rays of its half are
@@ -109,6 +113,11 @@ void gather_begin(struct gather *gather);
 
 /* Takes samples in rounds, until `samples` are done of a point whose factor is 1. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
+
+/* The variance of the mean of a point's channels of the irradiance, by what its rays found, after
+ * `samples`, which are more than GATHER_FIRST. Rays are stratified, so that it is rather less. It
+ * tells nothing of light that no ray found. */
+float gather_variance(const struct gather *gather, size_t point, uint64_t samples);
 
 /* After a first round that no other follows for now: adds it to the guides, and keeps their
  * histograms in gather->first. */
