@@ -228,7 +228,7 @@ static const ps_param params[] = {
 
 static const ps_estimator_vtable vtable = {
     .size = sizeof vtable,
-    .flags = PS_ESTIMATOR_CROPS,
+    .flags = PS_ESTIMATOR_CROPS | PS_ESTIMATOR_VARIANCE,
     .pixel_bytes = GATHER_PIXEL_BYTES,
     .accumulate = accumulate,
 };

@@ -12,6 +12,7 @@
  * stratified, but those of squares of pixels as well, and what one pixel has too much of its
  * neighbours have too little: a denoiser finds less noise.
  */
+#include "shared/contact.h"
 #include "shared/paths.h"
 
 struct state {
@@ -24,14 +25,55 @@ struct work {
     struct paths_setting setting;
 };
 
+/* What the samples of a tile's points tell of their variance. */
+struct spread {
+    int samples; /* so far */
+    float squares[PS_TILE_PIXELS], nearest[PS_TILE_PIXELS];
+};
+
+struct tile_work {
+    const struct paths_setting *setting;
+    struct spread *spread;
+};
+
+static void look_for_contact(const struct paths *paths, const struct paths_segment *segment,
+                             struct spread *spread)
+{
+    for (size_t i = 0; i < paths->count && spread->samples < CONTACT_RAYS; i++) {
+        float *nearest = &spread->nearest[paths->pixels[i]];
+        *nearest = ps_min(*nearest, segment->hits[i].distance);
+    }
+    spread->samples++;
+}
+
 static void trace_sample(const void *user, const ps_points *points, const uint64_t *samples,
                          ps_rgb *sums)
 {
-    const struct work *work = user;
+    const struct tile_work *work = user;
     struct paths paths;
     struct paths_segment segment;
-    paths_start(&work->setting, points, samples, INFINITY, &paths, &segment);
-    paths_follow(&work->setting, points, samples, 1, &paths, &segment, sums);
+    ps_rgb found[PS_TILE_PIXELS] = {{0, 0, 0}};
+    paths_start(work->setting, points, samples, INFINITY, &paths, &segment);
+    paths_intersect(work->setting, points, 1, &paths, &segment);
+    look_for_contact(&paths, &segment, work->spread);
+    paths_go_on(work->setting, points, samples, 1, &paths, &segment, found);
+    for (size_t i = 0; i < points->count; i++) {
+        float light = contact_mean_of_channels(found[i]);
+        work->spread->squares[i] += light * light;
+        sums[i] = ps_rgb_add(sums[i], found[i]);
+    }
+}
+
+/* By the means of all samples. */
+static void tell_variance(const struct work *work, const ps_points *points,
+                          const ps_rgb *irradiance, const struct spread *spread, ps_tile *tile)
+{
+    float variance[PS_TILE_PIXELS], n = (float)work->state->samples;
+    for (size_t i = 0; i < points->count; i++) {
+        float mean = contact_mean_of_channels(irradiance[i]);
+        variance[i] = ps_max(spread->squares[i] / n - mean * mean, 0.0f) / (n - 1.0f);
+    }
+    contact_tell_variance(work->setting.host, points, spread->nearest, variance, tile);
 }
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)
@@ -42,11 +84,17 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     ps_tile *tile = host->tile(host, (uint32_t)index);
     ps_points points;
     ps_rgb irradiance[PS_TILE_PIXELS];
+    struct spread spread = {.samples = 0};
+    struct tile_work tile_work = {&work->setting, &spread};
+    for (size_t i = 0; i < PS_TILE_PIXELS; i++)
+        spread.nearest[i] = INFINITY;
     ps_collect_points(tile, &points);
     paths_average(&work->setting, index, &points, (uint64_t)work->state->samples, trace_sample,
-                  work, irradiance);
+                  &tile_work, irradiance);
     for (size_t i = 0; i < points.count; i++)
         ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
+    if (work->state->samples > CONTACT_RAYS)
+        tell_variance(work, &points, irradiance, &spread, tile);
 }
 
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
@@ -65,7 +113,7 @@ static const ps_param params[] = {
 
 static const ps_estimator_vtable vtable = {
     .size = sizeof vtable,
-    .flags = PS_ESTIMATOR_CROPS,
+    .flags = PS_ESTIMATOR_CROPS | PS_ESTIMATOR_VARIANCE,
     .accumulate = accumulate,
 };
 

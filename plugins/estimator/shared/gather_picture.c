@@ -1,6 +1,7 @@
 #include "gather_picture.h"
 
 #include "allocation.h"
+#include "contact.h"
 #include "sampled_tiles.h"
 #include <string.h>
 
@@ -15,7 +16,6 @@ struct work {
     /* Of the picture's tiles; of those that were not looked at, without points. */
     struct tile_pilot *pilots;
     uint32_t *slots;
-    ps_camera camera;
 };
 
 #define NO_SLOT UINT32_MAX
@@ -58,31 +58,13 @@ static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *ti
     return tile_pilot(lanes, found, half, count);
 }
 
-/* Whether something lies as near to a point as its pixel is wide: it lies in a crease, or in the
- * shadow of what touches its surface, and the pixels around may have other light. */
-static bool is_in_contact(const struct work *work, const ps_tile *tile, const struct gather *gather,
-                          size_t i)
+static void tell_variance(const struct gather *gather, uint64_t samples, ps_tile *tile)
 {
-    float depth = tile->depth[gather->points.lanes[i]];
-    return gather->first.nearest[i] < ps_pixel_size(&work->camera, depth);
-}
-
-/* Tells the variance of the points in contact, whose light may change from pixel to pixel.
- * Elsewhere it seldom does, and what sets a pixel apart from those around is chance. The variance
- * counts as the mean of the tile's at least: that of few samples is a poor estimate, and too small
- * where rare bright ones are missing. */
-static void tell_variance(const struct work *work, const struct gather *gather, uint64_t samples,
-                          ps_tile *tile)
-{
-    float variance[PS_TILE_PIXELS], sum = 0.0f;
-    for (size_t i = 0; i < gather->points.count; i++) {
-        variance[i] = gather_variance(gather, i, samples);
-        sum += variance[i];
-    }
-    float mean = sum / (float)gather->points.count;
+    float variance[PS_TILE_PIXELS];
     for (size_t i = 0; i < gather->points.count; i++)
-        if (is_in_contact(work, tile, gather, i))
-            tile->variance[gather->points.lanes[i]] = ps_max(variance[i], mean);
+        variance[i] = gather_variance(gather, i, samples);
+    contact_tell_variance(gather->setting->paths.host, &gather->points, gather->first.nearest,
+                          variance, tile);
 }
 
 static float sum_of_factors(const struct gather *gather)
@@ -172,7 +154,7 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     for (size_t i = 0; i < gather.points.count; i++)
         ps_add_irradiance(tile, gather.points.lanes[i], gather.irradiance[i]);
     if (samples > GATHER_FIRST)
-        tell_variance(work, &gather, samples, tile);
+        tell_variance(&gather, samples, tile);
 }
 
 static void mark_tile(void *user, uint64_t index, uint32_t worker)
@@ -277,8 +259,7 @@ ps_result gather_picture(const struct gather_setting *setting, bool adaptive,
                          struct gather_allocation *allocation)
 {
     const ps_host *host = setting->paths.host;
-    struct work work = {.setting = setting, .camera = {.size = sizeof work.camera}};
-    host->camera(host, &work.camera);
+    struct work work = {.setting = setting};
     host->progress_part(host, setting->share_before, 1.0);
     ps_result result =
         adaptive && setting->samples > GATHER_FIRST ? allocate_samples(&work, allocation) : PS_OK;

@@ -1,9 +1,14 @@
 #include "gather_rays.h"
 
+#include "contact.h"
+
 #include <string.h>
 
 #define SAME_FACING 0.8f /* cosine of two normals that share a guide */
 #define FROM_AROUND 0.5f /* of the light that the gathers around found, for that found here */
+
+_Static_assert((int)GATHER_FIRST == (int)CONTACT_RAYS,
+               "those of the first round look for what is near");
 
 /* --- guides --- */
 
@@ -94,24 +99,20 @@ static void add(struct gather *gather, size_t i, ps_rgb found, float weight, boo
         gather->half[i] = ps_rgb_add(gather->half[i], weighed);
 }
 
-static float mean_of_channels(ps_rgb light)
-{
-    return (light.r + light.g + light.b) * (1.0f / 3.0f);
-}
-
 static void add_square(struct gather *gather, size_t i, ps_rgb found, float weight)
 {
-    float light = weight * mean_of_channels(found);
+    float light = weight * contact_mean_of_channels(found);
     gather->squares[i] += light * light;
 }
 
 float gather_variance(const struct gather *gather, size_t point, uint64_t samples)
 {
     float n = (float)(GATHER_FIRST + guided_of(gather, point, samples));
-    float sum = mean_of_channels(gather->irradiance[point]), squares = gather->squares[point];
+    float sum = contact_mean_of_channels(gather->irradiance[point]),
+          squares = gather->squares[point];
     for (int number = 0; number < GATHER_FIRST; number++) {
         float weight = gather->first_weights[number][point];
-        float light = weight * mean_of_channels(gather->first.found[number][point]);
+        float light = weight * contact_mean_of_channels(gather->first.found[number][point]);
         squares += light * light;
     }
     return ps_max(squares - sum * sum / n, 0.0f) * n / (n - 1.0f);

@@ -72,7 +72,7 @@ struct gather_first {
     /* Factors on the number of guided samples of each point (sample_factors.h): set by
      * gather_begin() to 1. */
     float factors[PS_TILE_PIXELS];
-    float nearest[PS_TILE_PIXELS]; /* least distance that a ray of a point went */
+    float nearest[PS_TILE_PIXELS]; /* least distance that a point's rays went (contact.h) */
     ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
     struct guide_bin bins[GATHER_FIRST][PS_TILE_PIXELS];
     uint32_t guide_count;
