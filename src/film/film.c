@@ -26,17 +26,22 @@ static bool is_of_light(int plane)
     return plane < FILM_ON_REQUEST && !is_of_surfaces(plane);
 }
 
+ps_result film_add_plane(struct film *film, enum film_plane plane, struct error *error)
+{
+    film->has[plane] = true;
+    film->planes[plane] = plane_create(film->width, film->height);
+    return film->planes[plane]
+               ? PS_OK
+               : error_memory(error, film->width * film->height * sizeof(float), "the film");
+}
+
 static ps_result add_planes(struct film *film, bool (*wanted)(int plane), struct error *error)
 {
-    for (int plane = 0; plane < FILM_PLANES; plane++) {
-        if (!wanted(plane))
-            continue;
-        film->has[plane] = true;
-        film->planes[plane] = plane_create(film->width, film->height);
-        if (!film->planes[plane])
-            return error_memory(error, film->width * film->height * sizeof(float), "the film");
-    }
-    return PS_OK;
+    ps_result result = PS_OK;
+    for (int plane = 0; plane < FILM_PLANES && result == PS_OK; plane++)
+        if (wanted(plane))
+            result = film_add_plane(film, (enum film_plane)plane, error);
+    return result;
 }
 
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
@@ -106,26 +111,6 @@ ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apa
             result = add_planes(films[i], is_hard, error);
     }
     return result;
-}
-
-static bool is_gloss(int plane)
-{
-    return plane == FILM_GLOSS;
-}
-
-ps_result film_add_gloss(struct film *film, struct error *error)
-{
-    return add_planes(film, is_gloss, error);
-}
-
-static bool is_variance(int plane)
-{
-    return plane == FILM_VARIANCE;
-}
-
-ps_result film_add_variance(struct film *film, struct error *error)
-{
-    return add_planes(film, is_variance, error);
 }
 
 static ps_result empty_planes(struct film *film, struct error *error)

@@ -75,11 +75,8 @@ ps_result film_add_halves(struct film *film, struct error *error);
 ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apart,
                              struct error *error);
 
-/* Lets it tell gloss from diffuse surfaces. */
-ps_result film_add_gloss(struct film *film, struct error *error);
-
-/* Lets it keep the variance that the estimator tells. */
-ps_result film_add_variance(struct film *film, struct error *error);
+/* Lets it keep a plane that it lacks: FILM_GLOSS, or FILM_VARIANCE. */
+ps_result film_add_plane(struct film *film, enum film_plane plane, struct error *error);
 
 /* Empties the film for a pass, and makes the planes anew that were taken out of it. */
 ps_result film_begin_pass(struct film *film, uint32_t number, struct error *error);

@@ -90,9 +90,9 @@ static ps_result add_to_film(struct render *render, const struct planes *planes,
     struct film *film = &render->film;
     ps_result result = PS_OK;
     if (planes->gloss)
-        result = film_add_gloss(film, error);
+        result = film_add_plane(film, FILM_GLOSS, error);
     if (result == PS_OK && planes->variance)
-        result = film_add_variance(film, error);
+        result = film_add_plane(film, FILM_VARIANCE, error);
     if (result == PS_OK && planes->ids)
         result = film_add_ids(film, error);
     if (result == PS_OK && planes->odd)

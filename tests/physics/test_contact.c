@@ -2,6 +2,7 @@
  * denoiser makes of it: shadows as narrow as a pixel.
  */
 #include "pipeline/stages.h"
+#include "support/lit_floor.h"
 #include "support/render_scene.h"
 #include <math.h>
 #include <setjmp.h>
@@ -14,16 +15,7 @@
 #define WIDTH 96
 #define HEIGHT 64
 
-static const char wall[] =
-    "psd: 1\n"
-    "camera: {location: [0, 1.5, 4], look_at: [0, 0.2, 0], angle: 30}\n"
-    "image: {width: 96, height: 64}\n"
-    "materials: {white: {diffuse: 0.7}}\n"
-    "lights: [spotlight: {location: [0, 3, 1.2], point_at: [0, 0, 1.2], radius: 12, falloff: 14, "
-    "intensity: 100}]\n"
-    "objects:\n"
-    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, 0], [-9, 0, 0]], material: white}\n"
-    "  - quad: {corners: [[-9, 0, 0], [9, 0, 0], [9, 9, 0], [-9, 9, 0]], material: white}\n";
+static const char wall[] = LIT_FLOOR("location: [0, 1.5, 4], look_at: [0, 0.2, 0], angle: 30", "");
 
 static const char *const estimators[] = {"estimator=gather:samples=16",
                                          "estimator=final_gather:samples=16",
@@ -100,22 +92,16 @@ static void test_variance_in_contact(void **state)
 
 /* Studs as wide as a pixel stand out of a wall, each below a pixel from which it hides the lit
  * floor. */
-static const char studs[] =
-    "psd: 1\n"
-    "camera: {location: [0, 1.3, 4], look_at: [0, 1.3, 0], angle: 27}\n"
-    "image: {width: 96, height: 64}\n"
-    "materials: {white: {diffuse: 0.7}, dark: {diffuse: 0.1}}\n"
-    "lights: [spotlight: {location: [0, 3, 1.2], point_at: [0, 0, 1.2], radius: 12, falloff: 14, "
-    "intensity: 100}]\n"
-    "objects:\n"
-    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, 0], [-9, 0, 0]], material: white}\n"
-    "  - quad: {corners: [[-9, 0, 0], [9, 0, 0], [9, 9, 0], [-9, 9, 0]], material: white}\n"
-    "  - for: i\n"
-    "    from: 0\n"
-    "    to: 9\n"
-    "    do: [box: {corners: [[\"=0.08 * i - 0.4\", 1.28, 0.0005], [\"=0.08 * i - 0.38\", 1.299, "
+#define STUDS                                                                                      \
+    "  - for: i\n"                                                                                 \
+    "    from: 0\n"                                                                                \
+    "    to: 9\n"                                                                                  \
+    "    do: [box: {corners: [[\"=0.08 * i - 0.4\", 1.28, 0.0005], [\"=0.08 * i - 0.38\", 1.299, " \
     "0.02]], material: dark}]\n"
-    "render: {bounces: all, passes: 1}\n";
+
+static const char studs[] =
+    LIT_FLOOR("location: [0, 1.3, 4], look_at: [0, 1.3, 0], angle: 27", ", dark: {diffuse: 0.1}")
+        STUDS "render: {bounces: all, passes: 1}\n";
 
 /* The mean light of the pixels that are so many above a stud. */
 static double light_above_studs(const char *estimator, const char *denoiser, size_t pixels)

@@ -4,6 +4,7 @@
  * A wall that no lamp reaches sees a small lit patch of the floor: by the cosine one ray in ten
  * finds it.
  */
+#include "support/lit_floor.h"
 #include "support/render_scene.h"
 #include <math.h>
 #include <setjmp.h>
@@ -16,16 +17,7 @@
 #define HEIGHT 64
 #define SEEDS 4
 
-static const char scene[] =
-    "psd: 1\n"
-    "camera: {location: [0, 1.5, 4], look_at: [0, 1.3, 0], angle: 30}\n"
-    "image: {width: 96, height: 64}\n"
-    "materials: {white: {diffuse: 0.7}}\n"
-    "lights: [spotlight: {location: [0, 3, 1.2], point_at: [0, 0, 1.2], radius: 12, falloff: 14, "
-    "intensity: 100}]\n"
-    "objects:\n"
-    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, 0], [-9, 0, 0]], material: white}\n"
-    "  - quad: {corners: [[-9, 0, 0], [9, 0, 0], [9, 9, 0], [-9, 9, 0]], material: white}\n";
+static const char scene[] = LIT_FLOOR("location: [0, 1.5, 4], look_at: [0, 1.3, 0], angle: 30", "");
 
 static struct rendering render_by(const char *estimator, int seed)
 {

@@ -373,7 +373,7 @@ static void test_first_glossy_surface(void **state)
     struct error error;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
-    assert_int_equal(film_add_gloss(&bench.film, &error), PS_OK);
+    assert_int_equal(film_add_plane(&bench.film, FILM_GLOSS, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 2; lane++)
         see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, 1);
@@ -410,7 +410,7 @@ static void test_variance(void **state)
     struct error error;
     static const bool left_out[PS_TILE_PIXELS] = {[3] = true};
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
-    assert_int_equal(film_add_variance(&bench.film, &error), PS_OK);
+    assert_int_equal(film_add_plane(&bench.film, FILM_VARIANCE, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 4; lane++) {
         see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, 1);
@@ -440,7 +440,7 @@ static void test_mirror_with_nothing_behind(void **state)
     struct error error;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
-    assert_int_equal(film_add_gloss(&bench.film, &error), PS_OK);
+    assert_int_equal(film_add_plane(&bench.film, FILM_GLOSS, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 4; lane++)
         see_nothing(&bench.gbuffer.tiles[0], lane);

@@ -27,7 +27,7 @@ static struct film any_film(uint32_t number)
     assert_int_equal(film_add_ids(&film, &error), PS_OK);
     assert_int_equal(film_add_halves(&film, &error), PS_OK);
     assert_int_equal(film_add_reflected(&film, true, true, &error), PS_OK);
-    assert_int_equal(film_add_variance(&film, &error), PS_OK);
+    assert_int_equal(film_add_plane(&film, FILM_VARIANCE, &error), PS_OK);
     assert_int_equal(film_begin_pass(&film, number, &error), PS_OK);
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PIXELS && film.planes[plane]; i++) {
@@ -237,7 +237,7 @@ static void test_films_that_do_not_fit(void **state)
     assert_int_equal(film_create(WIDTH, HEIGHT, true, &other, &error), PS_OK);
     assert_false(film_sum_fits(&sum, &other));
     film_release(&other);
-    assert_int_equal(film_add_gloss(&film, &error), PS_OK);
+    assert_int_equal(film_add_plane(&film, FILM_GLOSS, &error), PS_OK);
     assert_false(film_sum_fits(&sum, &film));
     film_release(&film);
     film_sum_release(&sum);
