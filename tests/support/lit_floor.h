@@ -1,4 +1,4 @@
-/* lit_floor.h: a wall that no lamp reaches, before a floor of which a spotlight lights one patch. */
+/* lit_floor.h: a wall that no lamp reaches, before a floor with one patch lit by a spotlight. */
 #ifndef TESTS_SUPPORT_LIT_FLOOR_H
 #define TESTS_SUPPORT_LIT_FLOOR_H
 
