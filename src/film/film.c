@@ -100,17 +100,17 @@ static bool is_hard(int plane)
     return plane >= FILM_HARD_R && plane <= FILM_HARD_B;
 }
 
-ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apart,
-                             struct error *error)
+ps_result film_add_reflected(struct film *film, bool hard_apart, struct error *error)
 {
-    ps_result result = add_part(film, half_of_pass, error);
-    struct film *const films[] = {film, half_of_pass ? film->half : film->odd};
-    for (int i = 0; i < 2 && result == PS_OK; i++) {
-        result = add_planes(films[i], is_reflected, error);
-        if (result == PS_OK && hard_apart)
-            result = add_planes(films[i], is_hard, error);
-    }
-    return result;
+    ps_result result = add_planes(film, is_reflected, error);
+    return result == PS_OK && hard_apart ? add_planes(film, is_hard, error) : result;
+}
+
+ps_result film_add_half_of_reflected(struct film *film, bool of_pass, struct error *error)
+{
+    ps_result result = add_part(film, of_pass, error);
+    struct film *part = of_pass ? film->half : film->odd;
+    return result == PS_OK ? film_add_reflected(part, film->has[FILM_HARD_R], error) : result;
 }
 
 static ps_result empty_planes(struct film *film, struct error *error)

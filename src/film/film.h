@@ -69,11 +69,11 @@ ps_result film_add_ids(struct film *film, struct error *error);
 /* Lets the film keep the indirect light of its odd passes apart as well. */
 ps_result film_add_halves(struct film *film, struct error *error);
 
-/* Lets it keep the direct light that is reflected apart from what is emitted, and half of it: of
- * the passes, or of each of them. With `hard_apart`, that of lights that cast hard shadows as
- * well. */
-ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apart,
-                             struct error *error);
+/* Lets it keep the direct light that is reflected apart from what is emitted. With `hard_apart`,
+ * that of lights that cast hard shadows as well. */
+ps_result film_add_reflected(struct film *film, bool hard_apart, struct error *error);
+/* And half of that: of each pass, or of the passes (the odd ones). */
+ps_result film_add_half_of_reflected(struct film *film, bool of_pass, struct error *error);
 
 /* Lets it keep a plane that it lacks: FILM_GLOSS, or FILM_VARIANCE. */
 ps_result film_add_plane(struct film *film, enum film_plane plane, struct error *error);

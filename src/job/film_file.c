@@ -253,18 +253,32 @@ static bool has_direct(const struct film_sum *sum, int part)
            (!hard || has_planes(sum, part + FILM_HARD_R, part + FILM_HARD_B + 1));
 }
 
+/* Half of that light: of each pass or of the passes, or both; none of them in pieces. */
+static bool has_halves(const struct film_sum *sum)
+{
+    static const int parts[] = {FILM_SUM_OF_HALF, FILM_SUM_OF_ODD};
+    bool whole = true;
+    int count = 0;
+    for (int i = 0; i < 2; i++) {
+        bool has = false;
+        for (int plane = FILM_REFLECTED_R; plane <= FILM_HARD_B; plane++)
+            has |= sum->planes[parts[i] + plane].high != NULL;
+        whole &= !has || has_direct(sum, parts[i]);
+        count += has;
+    }
+    return whole && count > 0;
+}
+
 /* All that a film of the driver has: the light of the odd passes in any case, and where the
  * reflected light is apart, half of it. */
 static bool has_what_it_needs(const struct film_sum *sum)
 {
     static const int odd = FILM_SUM_OF_ODD;
-    bool reflects = sum->planes[FILM_REFLECTED_R].high != NULL, halves = false;
-    for (int plane = FILM_SUM_OF_HALF; plane < FILM_SUM_OF_HALF + FILM_PLANES; plane++)
-        halves |= sum->planes[plane].high != NULL;
-    bool halved = has_direct(sum, halves ? FILM_SUM_OF_HALF : FILM_SUM_OF_ODD);
+    bool reflects = sum->planes[FILM_REFLECTED_R].high != NULL;
     return has_planes(sum, 0, FILM_ON_REQUEST) && sum->planes[FILM_SUM_OF_SQUARES].high &&
            has_planes(sum, odd + FILM_COLOR_R, odd + FILM_WEIGHT + 1) &&
-           sum->planes[odd + FILM_COVERAGE].high && (!reflects || (has_direct(sum, 0) && halved));
+           sum->planes[odd + FILM_COVERAGE].high &&
+           (!reflects || (has_direct(sum, 0) && has_halves(sum)));
 }
 
 static ps_result read_passes(const char *path, const struct image *image, struct pass_set *passes,

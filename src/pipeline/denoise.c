@@ -113,26 +113,39 @@ static void mean_of_rest(const float *mean, const float *odd_mean, float odd_sha
         rest[i] = fmaxf((mean[i] - odd_share * odd_mean[i]) / (1.0f - odd_share), 0.0f);
 }
 
-/* The film has them by half of each pass, or by the odd passes. */
+/* Half of the direct light, and how much of it that is; NULL where there is none. Where the film
+ * has the odd passes, halves of each pass do not tell all of the noise. */
+static const struct film *half_of_direct(const struct film *film, float *share)
+{
+    const struct film *odd = film->odd;
+    bool has_odd = odd && odd->planes[FILM_REFLECTED_R] && odd->passes > 0;
+    if (has_odd && odd->passes < film->passes) {
+        *share = (float)odd->passes / (float)film->passes;
+        return odd;
+    }
+    *share = 0.5f;
+    return film->half;
+}
+
 static struct halves halves_of_direct(const struct film *film, int first, float *even)
 {
     size_t pixels = film->width * film->height;
-    const struct film *odd = film->half ? film->half : film->odd;
-    float odd_share = film->half ? 0.5f : (float)odd->passes / (float)film->passes;
+    float share;
+    const struct film *half = half_of_direct(film, &share);
     for (int c = 0; c < 3; c++)
-        mean_of_rest(film->planes[first + c], odd->planes[first + c], odd_share, pixels,
+        mean_of_rest(film->planes[first + c], half->planes[first + c], share, pixels,
                      even + (size_t)c * pixels);
     return (struct halves){
-        .even = planes_at(even, pixels), .odd = planes_of(odd, first), .odd_share = odd_share};
+        .even = planes_at(even, pixels), .odd = planes_of(half, first), .odd_share = share};
 }
 
 static bool denoises_direct(const struct render *render)
 {
+    float share;
     const struct film *film = &render->film;
     uint32_t flags = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
-    if (!(flags & PS_DENOISER_DIRECT) || !film->planes[FILM_REFLECTED_R])
-        return false;
-    return film->half || (film->odd->passes > 0 && film->odd->passes < film->passes);
+    return flags & PS_DENOISER_DIRECT && film->planes[FILM_REFLECTED_R] &&
+           half_of_direct(film, &share);
 }
 
 /* Sums of no light are zeros. */

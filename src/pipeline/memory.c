@@ -30,7 +30,8 @@ static size_t count_film(const struct planes *planes)
     size_t of_surfaces = FILM_VISIBLE - FILM_ALBEDO_R + 1, of_odd = 5; /* light, weight, coverage */
     size_t reflected = planes->reflected ? 3 + (planes->reflected_hard ? 3 : 0) : 0;
     return FILM_ON_REQUEST - (planes->surfaces ? 0 : of_surfaces) + (planes->gloss ? 1 : 0) +
-           (planes->variance ? 1 : 0) + (planes->odd ? of_odd : 0) + 2 * reflected;
+           (planes->variance ? 1 : 0) + (planes->odd ? of_odd : 0) +
+           reflected * (1 + (planes->halves_of_pass ? 1 : 0) + (planes->halves_of_passes ? 1 : 0));
 }
 
 /* Of a pixel: the film, and the sums of its passes with the squares of its light. */

@@ -9,19 +9,19 @@ static bool wants_surfaces(const struct render_settings *settings, bool keeps_fi
 
 /* Where a denoiser may smooth the direct light: it has noise, which halves of it tell, and nothing
  * else smooths it. Halves of each pass are best, since its samples look at the same places; but one
- * shadow ray, or one sample of gloss, has no halves, and then passes are. */
+ * shadow ray, or one sample of gloss, has no halves, and then those of several passes tell more. */
 static void add_reflected(struct planes *planes, const struct render_settings *settings,
                           const struct scene *scene)
 {
     bool shadows = scene_samples_lights(scene) && !settings->discontinuity_buffer;
     bool halved_shadows = shadows && scene->light_samples > 1;
     bool halved_gloss = planes->gloss && settings->aa_samples > 1;
-    bool halves = (halved_shadows || halved_gloss) &&
-                  (!planes->sums || (shadows == halved_shadows && planes->gloss == halved_gloss));
-    planes->reflected = (shadows || planes->gloss) && (halves || planes->sums);
+    bool all_halved = shadows == halved_shadows && planes->gloss == halved_gloss;
+    planes->halves_of_pass = halved_shadows || halved_gloss;
+    planes->halves_of_passes = planes->sums && !all_halved;
+    planes->reflected = planes->halves_of_pass || planes->halves_of_passes;
     planes->reflected_hard = planes->reflected && shadows && scene_has_hard_shadows_apart(scene);
-    planes->halves_of_pass = planes->reflected && halves;
-    planes->direct_half |= planes->halves_of_pass && halved_shadows;
+    planes->direct_half |= halved_shadows;
     planes->hard |= planes->reflected_hard;
 }
 

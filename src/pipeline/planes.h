@@ -28,8 +28,8 @@ struct planes {
     bool odd;         /* film: indirect light of the odd passes */
     bool variance;    /* film: variance of the irradiance */
     /* Film: direct light that is reflected, with that of hard shadows apart, and its halves: of
-     * each pass, or else of the odd passes. */
-    bool reflected, reflected_hard, halves_of_pass;
+     * each pass, and of the passes (the odd ones). */
+    bool reflected, reflected_hard, halves_of_pass, halves_of_passes;
 };
 
 /* `sums`: the render sums passes; `keeps_film`: for the caller, whose film has what any denoiser

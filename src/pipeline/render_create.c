@@ -98,7 +98,11 @@ static ps_result add_to_film(struct render *render, const struct planes *planes,
     if (result == PS_OK && planes->odd)
         result = film_add_halves(film, error);
     if (result == PS_OK && planes->reflected)
-        result = film_add_reflected(film, planes->halves_of_pass, planes->reflected_hard, error);
+        result = film_add_reflected(film, planes->reflected_hard, error);
+    if (result == PS_OK && planes->halves_of_pass)
+        result = film_add_half_of_reflected(film, true, error);
+    if (result == PS_OK && planes->halves_of_passes)
+        result = film_add_half_of_reflected(film, false, error);
     return result;
 }
 

@@ -54,6 +54,8 @@ for samples in 1 8; do
     run 0 $few --passes 1 --set render.aa_samples=$samples --checkpoint one.exr -o alone.exr "$glossy"
     run 0 resolve -q one.exr -o again.exr
     expect_same_pixels alone.exr again.exr
+    run 0 $few --passes 1 --set render.aa_samples=$samples -o plain.exr "$glossy"
+    expect_same_pixels alone.exr plain.exr
 done
 
 # Another denoiser, normalization and exposure, without rendering.

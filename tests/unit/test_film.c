@@ -297,12 +297,18 @@ static void test_film_of_light_alone(void **state)
     film_release(&whole);
 }
 
+static void keep_reflected(bool half_of_pass, bool hard_apart)
+{
+    struct error error;
+    assert_int_equal(film_add_reflected(&bench.film, hard_apart, &error), PS_OK);
+    assert_int_equal(film_add_half_of_reflected(&bench.film, half_of_pass, &error), PS_OK);
+}
+
 /* Without what is emitted; and in `odd` the second pass. */
 static void test_reflected_light_apart(void **state)
 {
     (void)state;
-    struct error error;
-    assert_int_equal(film_add_reflected(&bench.film, false, false, &error), PS_OK);
+    keep_reflected(false, false);
     add_pass(0, 1);
     add_pass(0, 3);
     film_average(&bench.film);
@@ -317,7 +323,7 @@ static void test_half_of_a_pass(void **state)
 {
     (void)state;
     struct error error;
-    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
+    keep_reflected(true, false);
     assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
     for (size_t i = 0; i < (size_t)bench.gbuffer.tile_count * PS_TILE_PIXELS; i++)
         bench.gbuffer.direct_half[i] = (ps_rgb){1, 2, 3};
@@ -336,7 +342,7 @@ static void test_hard_light_apart(void **state)
 {
     (void)state;
     struct error error;
-    assert_int_equal(film_add_reflected(&bench.film, true, true, &error), PS_OK);
+    keep_reflected(true, true);
     assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(gbuffer_prepare_hard(&bench.gbuffer, &error), PS_OK);
     for (size_t i = 0; i < (size_t)bench.gbuffer.tile_count * PS_TILE_PIXELS; i++) {
@@ -372,7 +378,7 @@ static void test_first_glossy_surface(void **state)
     (void)state;
     struct error error;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
-    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
+    keep_reflected(true, false);
     assert_int_equal(film_add_plane(&bench.film, FILM_GLOSS, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 2; lane++)
@@ -439,7 +445,7 @@ static void test_mirror_with_nothing_behind(void **state)
     (void)state;
     struct error error;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
-    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
+    keep_reflected(true, false);
     assert_int_equal(film_add_plane(&bench.film, FILM_GLOSS, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 4; lane++)
@@ -514,7 +520,7 @@ static void test_halves_of_glossy_samples(void **state)
     double mean = 0.5 / PI * 5 * (1 + 2 + 3 + 4 + 5) / 5 + 3;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
-    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
+    keep_reflected(true, false);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 5; lane++)
         see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, (float)(1 + lane));

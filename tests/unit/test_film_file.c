@@ -26,7 +26,9 @@ static struct film any_film(uint32_t number)
     assert_int_equal(film_create(WIDTH, HEIGHT, true, &film, &error), PS_OK);
     assert_int_equal(film_add_ids(&film, &error), PS_OK);
     assert_int_equal(film_add_halves(&film, &error), PS_OK);
-    assert_int_equal(film_add_reflected(&film, true, true, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&film, true, &error), PS_OK);
+    assert_int_equal(film_add_half_of_reflected(&film, true, &error), PS_OK);
+    assert_int_equal(film_add_half_of_reflected(&film, false, &error), PS_OK);
     assert_int_equal(film_add_plane(&film, FILM_VARIANCE, &error), PS_OK);
     assert_int_equal(film_begin_pass(&film, number, &error), PS_OK);
     for (int plane = 0; plane < FILM_PLANES; plane++)
@@ -161,12 +163,24 @@ static void drop_odd_weight(struct image *image)
 static bool is_no_half(const void *user, const char *name)
 {
     (void)user;
-    return strstr(name, ".half.") == NULL;
+    return !strstr(name, ".half.") && !strstr(name, ".odd.reflected.") &&
+           !strstr(name, ".odd.hard.");
 }
 
-static void drop_half(struct image *image)
+static void drop_halves(struct image *image)
 {
     image_keep_channels(image, is_no_half, NULL);
+}
+
+static bool is_no_reflected_odd(const void *user, const char *name)
+{
+    (void)user;
+    return strstr(name, ".odd.reflected.G") == NULL;
+}
+
+static void drop_reflected_odd(struct image *image)
+{
+    image_keep_channels(image, is_no_reflected_odd, NULL);
 }
 
 static bool is_no_hard_half(const void *user, const char *name)
@@ -218,8 +232,9 @@ static void test_what_is_no_whole_film(void **state)
     expect_refused(state, set_no_passes, "it says of no passes");
     expect_refused(state, drop_weight, "layers are missing");
     expect_refused(state, drop_odd_weight, "layers are missing");
-    expect_refused(state, drop_half, "layers are missing");
+    expect_refused(state, drop_halves, "layers are missing");
     expect_refused(state, drop_hard_half, "layers are missing");
+    expect_refused(state, drop_reflected_odd, "layers are missing");
     expect_refused(state, drop_objects, "numbers of objects are missing");
     expect_refused(state, spoil_object, "numbers of objects are none");
     expect_refused(state, spoil_material, "numbers of objects are none");
