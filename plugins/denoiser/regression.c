@@ -14,27 +14,30 @@
  * for signal. Edges of light show in all bands, noise seldom in two: so the factor c is 2 where the
  * wider band was kept, 4 where it was not, and in between in proportion (bivariate shrinkage,
  * Sendur and Selesnick 2002). In a single pass, whose noise is estimated from the light itself, 1.2
- * takes the place of 2 past the first band. <N^2> is a mean over a wider square than <B^2>, since
- * one picture of the noise is a poor estimate. Where a few bright samples meet, it tells too
- * little, and they would stay as bumps of even walls: so where halves tell the noise (below),
- * narrow bands take the larger of that mean and 1.25 times that over the square of <B^2>; less
- * where <B^2> is large, as at edges of shadows and caustics, which have their noise in one place
- * with their light.
+ * takes the place of 2 past the first band, and 1.4 in narrow ones, R = 6 and 3. <N^2> is a mean
+ * over a wider square than <B^2>, since one picture of the noise is a poor estimate. Where a few
+ * bright samples meet, it tells too little, and they would stay as bumps of even walls: so where
+ * halves tell the noise (below), narrow bands take the larger of that mean and 1.25 times that over
+ * the square of <B^2>; less where <B^2> is large, as at edges of shadows and caustics, which have
+ * their noise in one place with their light.
  *
  * Where two halves of the light are known, of passes or of shadow rays, their difference is the
  * noise, and the pixels themselves are a last band: light without noise stays as it is, with its
  * hard shadows. Of a single pass of indirect light the noise is what pixels differ from a first
- * fit, with random signs (the wild bootstrap, Wu 1986). That needs noise that is independent from
- * pixel to pixel, as that of paths is and that of splats is not. At edges, in gloss and behind a
- * lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of
- * pixels take one sign (the dependent wild bootstrap, Shao 2010). Where the estimator tells the
- * variance of a pixel, that pixel is a last band, judged by itself: contact shadows are often
- * narrower than any fit.
+ * fit, with random signs (the wild bootstrap, Wu 1986). Where light changes fast, that has light in
+ * it: so in narrow bands <N^2> is multiplied by the mean square of what the bands so far leave of
+ * the pixels, over that of what the first fit left, if that is less than 1. All that needs noise
+ * that is independent from pixel to pixel, as that of paths is and that of splats is not. At edges,
+ * in gloss and behind a lens, where samples of a pixel share the light of those around it
+ * (src/view/edges.h), blocks of pixels take one sign (the dependent wild bootstrap, Shao 2010).
+ * Where the estimator tells the variance of a pixel, that pixel is a last band, judged by itself:
+ * contact shadows are often narrower than any fit.
  *
  * Bright samples of few pixels would leave speckles in narrow bands. So each pixel is limited to
- * twice the first fit (if the excess may be noise and, where halves are known, few pixels near it
- * are as bright). At the end the residual E - E' is fitted with the widest bandwidth and added. It
- * contains what was cut off, so no light is lost, and the bias of the fits (twicing, Tukey 1977).
+ * twice the first fit, if the excess may be noise and few pixels near it are as bright: three,
+ * where halves are known, or half of them. At the end the residual E - E' is fitted with the widest
+ * bandwidth and added. It contains what was cut off, so no light is lost, and the bias of the fits
+ * (twicing, Tukey 1977).
  *
  * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface
  * hardly reflects says nothing about the light, and is taken for the mean of its other channels.
@@ -154,7 +157,7 @@ static void lay_out_without(struct room *room, int count, float *planes[])
 }
 
 /* Planes that all images share, with a margin and without, and those of each. */
-enum { GUIDES = 8, SCRATCH = 6 };
+enum { GUIDES = 8, SCRATCH = 7 };
 enum { IMAGE_WITH_MARGIN = 2 * VALUES, IMAGE = 2 * VALUES + REGRESSION_COLOURS + 4 };
 
 #define IMAGE_BYTES ((IMAGE_WITH_MARGIN + IMAGE) * sizeof(float) + REGRESSION_PLANES_PIXEL)
@@ -168,6 +171,7 @@ static void lay_out_shared(struct denoised_image *image, struct room *room)
     lay_out_without(room, 1, &image->signal);
     lay_out_without(room, 1, &image->scratch);
     lay_out_without(room, 1, &image->noise_near);
+    lay_out_without(room, 1, &image->newer_near);
     lay_out_without(room, 1, &image->signal_weight);
     lay_out_without(room, 1, &image->noise_weight);
     lay_out_without(room, 1, &image->kind);

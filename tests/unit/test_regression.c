@@ -593,6 +593,41 @@ static void test_light_of_thin_things_stays(void **state)
     assert_true(error < 0.45);
 }
 
+#define CAUSTIC_X 70
+#define CAUSTIC_Y 20
+#define CAUSTIC_RADIUS 9.0f
+
+/* Smooth, and 32 times as bright as the noisy floor around. */
+static float light_of_caustic(int pixel, float *distance)
+{
+    float x = (float)(pixel % WIDTH - CAUSTIC_X), y = (float)(pixel / WIDTH - CAUSTIC_Y);
+    *distance = sqrtf(x * x + y * y) - CAUSTIC_RADIUS;
+    float t = fminf(fmaxf(0.5f - *distance / 6.0f, 0.0f), 1.0f);
+    return 3.2f * t * t * (3 - 2 * t);
+}
+
+/* Wide fits are too low beside it, and what pixels differ from them by is not their noise. */
+static void test_no_dark_rim_beside_a_caustic(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    struct random random = {31};
+    float distance, darkest = 1;
+    for (int i = 0; i < PIXELS; i++) {
+        float light = light_of_caustic(i, &distance) + 0.1f * random_between(&random, 0.3f, 1.7f);
+        set_vector(picture->light, i, (ps_vec3){light, light, light});
+    }
+    denoise(picture, CHOICE, 2);
+    for (int i = 0; i < PIXELS; i++) {
+        light_of_caustic(i, &distance);
+        if (distance > 3.0f)
+            darkest = fminf(darkest, picture->light[1][i]);
+    }
+    print_message("beside a caustic: %.3f at least\n", (double)darkest);
+    assert_true(darkest > 0.05f);
+    free(picture);
+}
+
 /* --- pixels that say nothing --- */
 
 static void test_what_is_no_surface_stays(void **state)
@@ -718,6 +753,7 @@ int main(void)
         cmocka_unit_test(test_what_both_halves_find_may_be_chance),
         cmocka_unit_test(test_noise_of_thin_things_falls),
         cmocka_unit_test(test_light_of_thin_things_stays),
+        cmocka_unit_test(test_no_dark_rim_beside_a_caustic),
         cmocka_unit_test(test_what_is_no_surface_stays),
         cmocka_unit_test(test_nothing_seen_at_all),
         cmocka_unit_test(test_images_together_are_as_alone),

@@ -2,30 +2,23 @@
  * added up; regression.c has the formula and its papers. */
 #include "bands.h"
 
-#include "box.h"
+#include "squares.h"
 
 #include <psplat/isa.h>
 #include <psplat/math.h>
 
 /* c of that formula: where the wider band was kept, and where it was not. Past the first band of a
  * single pass, whose noise contains some of the light, GUESSED_THRESHOLD takes the place of
- * THRESHOLD; in the last band, of the pixels themselves, PIXELS_THRESHOLD, and ALONE_THRESHOLD
- * where each is judged by itself. */
+ * THRESHOLD, and in narrow bands, where it contains less, NARROW_THRESHOLD; in the last band, of
+ * the pixels themselves, PIXELS_THRESHOLD, and ALONE_THRESHOLD where each is judged by itself. */
 #define THRESHOLD 2.0f
 #define THRESHOLD_ALONE 4.0f
 #define GUESSED_THRESHOLD 1.2f
+#define NARROW_THRESHOLD 1.4f
 #define PIXELS_THRESHOLD 1.5f
 #define ALONE_THRESHOLD 3.0f
 
-/* Bands of R up to NARROW take what is larger, the mean of the noise over the wider square or that
- * over the square of the signal: which counts for so much, being that of few blobs, and for half of
- * it where the signal's mean square, relative to the light, is 1 / SIGNAL_NEAR. */
-#define NARROW 6
-#define NOISE_NEAR 1.25f
-#define SIGNAL_NEAR 30.0f
-
-#define PIXELS_WINDOW 4        /* R of the window of the last band */
-#define BROAD_AMONG_THIN 0.03f /* weight of a BROAD pixel in the means of THIN ones */
+#define PIXELS_WINDOW 4 /* R of the window of the last band */
 #define SURROUNDINGS                                                                               \
     0.25f /* of F_48, relative to which a pixel of the last band is measured at least */
 
@@ -50,113 +43,6 @@ static void begin_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
-/* A row of pixels, and the kind under way. */
-struct row {
-    const struct denoised_image *image;
-    size_t first;
-    float own;         /* its number */
-    float broad_share; /* of those of another kind, what BROAD ones count for */
-};
-
-static struct row row_of(const struct denoised_image *image, uint64_t row)
-{
-    return (struct row){
-        .image = image,
-        .first = row * image->width,
-        .own = (float)image->current_kind,
-        .broad_share = image->current_kind == THIN ? BROAD_AMONG_THIN : 0.0f,
-    };
-}
-
-/* What a pixel of that kind counts for in the means of the kind under way. */
-static PS_INLINED float share_of(const struct row *row, float kind)
-{
-    return kind == row->own ? 1.0f : kind == (float)BROAD ? row->broad_share : 0.0f;
-}
-
-PS_EVERY_ISA static void measure(const struct row row)
-{
-    const struct denoised_image *image = row.image;
-    const float *restrict kind = image->kind + row.first, *restrict inverse_square =
-                                                              image->inverse_square + row.first;
-    const float *restrict fine[VALUES], *restrict coarse[VALUES];
-    float *restrict signal = image->signal + row.first, *restrict noise = image->noise + row.first;
-    float *restrict noise_near = image->noise_near + row.first;
-    for (int c = 0; c < VALUES; c++) {
-        fine[c] = image->fine[c] + row.first;
-        coarse[c] = image->coarse[c] + row.first;
-    }
-#pragma omp simd
-    for (size_t i = 0; i < image->width; i++) {
-        float weight = share_of(&row, kind[i]) * inverse_square[i];
-        float band = fine[0][i] + fine[1][i] + fine[2][i];
-        band -= coarse[0][i] + coarse[1][i] + coarse[2][i];
-        float chance = fine[NOISE][i] - coarse[NOISE][i];
-        signal[i] = band * band * weight;
-        noise[i] = noise_near[i] = chance * chance * weight;
-    }
-}
-
-static void measure_row(void *user, uint64_t row, uint32_t worker)
-{
-    (void)worker;
-    measure(row_of(user, row));
-}
-
-PS_EVERY_ISA static void count(const struct row row)
-{
-    const float *restrict kind = row.image->kind + row.first;
-    float *restrict signal_weight = row.image->signal_weight + row.first;
-    float *restrict noise_weight = row.image->noise_weight + row.first;
-#pragma omp simd
-    for (size_t i = 0; i < row.image->width; i++)
-        signal_weight[i] = noise_weight[i] = share_of(&row, kind[i]);
-}
-
-static void count_row(void *user, uint64_t row, uint32_t worker)
-{
-    (void)worker;
-    count(row_of(user, row));
-}
-
-/* Replaces values by their sums over a square around. */
-static void sum_over_square(const struct denoised_image *image, int radius, float *plane)
-{
-    struct regression_box box = {image->width, image->height, (size_t)radius, plane,
-                                 image->scratch};
-    regression_box_sums(image->host, &box);
-}
-
-/* Sums over pixels that count for so much in all become means; where there are none, sums are 0. */
-static PS_INLINED float mean_of(float sum, float count)
-{
-    return sum / (count > 0.0f ? count : 1.0f);
-}
-
-/* The larger mean square of the noise over both squares, as a sum over the wider one. */
-PS_EVERY_ISA static void take_larger_noise(const struct row row)
-{
-    const struct denoised_image *image = row.image;
-    const float *restrict signal = image->signal + row.first;
-    const float *restrict noise_near = image->noise_near + row.first;
-    const float *restrict signal_weight = image->signal_weight + row.first;
-    const float *restrict noise_weight = image->noise_weight + row.first;
-    float *restrict noise = image->noise + row.first;
-#pragma omp simd
-    for (size_t i = 0; i < image->width; i++) {
-        float squares = mean_of(signal[i], signal_weight[i]);
-        float near = mean_of(noise_near[i], signal_weight[i]);
-        near *= NOISE_NEAR / (1.0f + SIGNAL_NEAR * squares);
-        noise[i] = ps_max(noise[i], near * noise_weight[i]);
-    }
-}
-
-static void take_larger_noise_of_row(void *user, uint64_t row, uint32_t worker)
-{
-    (void)worker;
-    take_larger_noise(row_of(user, row));
-}
-
 /* What is kept of a band of mean square S, of which N is noise: 1 - (c N / S)^2, with the limit c
  * N. */
 static PS_INLINED float keep_of(float signal, float limit)
@@ -176,19 +62,18 @@ static PS_INLINED float risk_of_band(float signal, float noise, float threshold,
 }
 
 /* Replaces S and N by k and its risk for pixels of the current kind, by 0 for the others. */
-PS_EVERY_ISA static void shrink(const struct row row)
+PS_EVERY_ISA static void shrink(const struct denoised_image *image, size_t first)
 {
-    const struct denoised_image *image = row.image;
-    const float *restrict kind = image->kind + row.first;
-    const float *restrict signal_weight = image->signal_weight + row.first;
-    const float *restrict noise_weight = image->noise_weight + row.first;
-    float *restrict shrinkage = image->shrinkage + row.first;
-    float *restrict signal = image->signal + row.first, *restrict noise = image->noise + row.first;
-    float least = image->threshold, own = row.own;
+    const float *restrict kind = image->kind + first;
+    const float *restrict signal_weight = image->signal_weight + first;
+    const float *restrict noise_weight = image->noise_weight + first;
+    float *restrict shrinkage = image->shrinkage + first;
+    float *restrict signal = image->signal + first, *restrict noise = image->noise + first;
+    float least = image->threshold, own = (float)image->current_kind;
 #pragma omp simd
     for (size_t i = 0; i < image->width; i++) {
-        float squares = mean_of(signal[i], signal_weight[i]),
-              chance = mean_of(noise[i], noise_weight[i]);
+        float squares = regression_mean_of(signal[i], signal_weight[i]),
+              chance = regression_mean_of(noise[i], noise_weight[i]);
         float threshold = THRESHOLD_ALONE + (least - THRESHOLD_ALONE) * shrinkage[i];
         float keep = keep_of(squares, threshold * chance);
         float risk = risk_of_band(squares, chance, threshold, keep);
@@ -199,22 +84,20 @@ PS_EVERY_ISA static void shrink(const struct row row)
     }
 }
 
-PS_EVERY_ISA static void add(const struct row row)
+PS_EVERY_ISA static void add(const struct denoised_image *image, size_t first)
 {
-    const struct denoised_image *image = row.image;
-    const float *restrict keep = image->signal + row.first, *restrict risk =
-                                                                image->noise + row.first;
+    const float *restrict keep = image->signal + first, *restrict risk = image->noise + first;
     for (int c = 0; c < REGRESSION_COLOURS; c++) {
-        const float *restrict fine = image->fine[c] + row.first;
-        const float *restrict coarse = image->coarse[c] + row.first;
-        float *restrict sum = image->sum[c] + row.first;
+        const float *restrict fine = image->fine[c] + first;
+        const float *restrict coarse = image->coarse[c] + first;
+        float *restrict sum = image->sum[c] + first;
 #pragma omp simd
         for (size_t i = 0; i < image->width; i++)
             sum[i] += keep[i] * (fine[i] - coarse[i]);
     }
     if (!image->error)
         return;
-    float *restrict error = image->error + row.first;
+    float *restrict error = image->error + first;
 #pragma omp simd
     for (size_t i = 0; i < image->width; i++)
         error[i] += risk[i];
@@ -223,19 +106,9 @@ PS_EVERY_ISA static void add(const struct row row)
 static void add_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    shrink(row_of(user, row));
-    add(row_of(user, row));
-}
-
-/* Puts sums over squares around in place of B^2 and N^2, whose square is twice as wide. */
-static void sum_squares(struct denoised_image *image, int radius)
-{
-    sum_over_square(image, radius, image->signal);
-    sum_over_square(image, 2 * radius, image->noise);
-    if (radius > NARROW || !image->view->even_r)
-        return;
-    sum_over_square(image, radius, image->noise_near);
-    image->host->parallel_for(image->host, image->height, take_larger_noise_of_row, image);
+    const struct denoised_image *image = user;
+    shrink(image, row * image->width);
+    add(image, row * image->width);
 }
 
 /* Adds the difference of `fine` and `coarse` of the first `count` images to the pixels of one
@@ -243,16 +116,12 @@ static void sum_squares(struct denoised_image *image, int radius)
 static void add_band_of_kind(struct denoised_images *images, int count, int radius,
                              enum pixel_kind kind)
 {
-    struct denoised_image *first = &images->of[0];
     for (int i = 0; i < count; i++)
         images->of[i].current_kind = kind;
-    first->host->parallel_for(first->host, first->height, count_row, first);
-    sum_over_square(first, radius, first->signal_weight);
-    sum_over_square(first, 2 * radius, first->noise_weight);
+    regression_count_squares(&images->of[0], radius);
     for (int i = 0; i < count; i++) {
         struct denoised_image *image = &images->of[i];
-        image->host->parallel_for(image->host, image->height, measure_row, image);
-        sum_squares(image, radius);
+        regression_measure_squares(image, radius);
         image->host->parallel_for(image->host, image->height, add_row, image);
     }
 }
@@ -346,6 +215,13 @@ static void add_known_pixels(struct denoised_images *images)
                                              add_known_of_row, &images->of[i]);
 }
 
+static float least_threshold(bool halved, size_t band)
+{
+    if (halved || band == 1)
+        return THRESHOLD;
+    return bandwidths[band] > REGRESSION_NARROW ? GUESSED_THRESHOLD : NARROW_THRESHOLD;
+}
+
 void regression_add_bands(struct denoised_images *images)
 {
     regression_fit_all(images, bandwidths[0], clamped_of, coarse_of);
@@ -353,7 +229,7 @@ void regression_add_bands(struct denoised_images *images)
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
         regression_fit_steered(images, bandwidths[k], clamped_of, fine_of);
         for (int i = 0; i < images->count; i++)
-            images->of[i].threshold = k > 1 && i >= images->halved ? GUESSED_THRESHOLD : THRESHOLD;
+            images->of[i].threshold = least_threshold(i < images->halved, k);
         add_band(images, images->count, bandwidths[k]);
         for (int i = 0; i < images->count; i++)
             swap_fits(&images->of[i]);

@@ -9,6 +9,7 @@
 #define NEAR 3             /* pixels to each side are near by */
 #define FEW 4 /* pixels near by, with itself, that are half as bright as an outlier, at most */
 #define FEW_IN_GLOSS 6 /* the same in gloss, where chance has more to say */
+#define LEAST_USUAL 5  /* pixels near by, with itself, that can tell what is usual */
 #define SHARED 4       /* pixels along a block whose noise may be one */
 
 /* --- irradiance and surfaces --- */
@@ -146,8 +147,26 @@ static bool is_alone(const struct denoised_image *image, size_t x, size_t y, flo
     return like <= (image->kind[y * image->width + x] == (float)GLOSSY ? FEW_IN_GLOSS : FEW);
 }
 
+/* Whether most pixels of its surface near by, itself included, are half as bright. Then it is the
+ * first fit that is wrong: beside a caustic it is too low. */
+static bool is_usual(const struct denoised_image *image, size_t x, size_t y, float bright)
+{
+    int like = 0, all = 0;
+    size_t own = regression_at(&image->guides, (int)x, (int)y);
+    for (int dy = -NEAR; dy <= NEAR; dy++)
+        for (int dx = -NEAR; dx <= NEAR; dx++) {
+            size_t at = regression_at(&image->guides, (int)x + dx, (int)y + dy);
+            if (!regression_is_like(&image->guides, own, at))
+                continue;
+            like += brightness_at(image->light, at) > 0.5f * bright;
+            all++;
+        }
+    return all >= LEAST_USUAL && 2 * like > all;
+}
+
 /* Limits a pixel to FAR_ABOVE times the first fit, in `fine`, unless its brightness cannot be noise
- * or, where the noise is known, several pixels near it share it: a patch of sun is kept. */
+ * or pixels near it share it: where the noise is known several, and a patch of sun is kept, else
+ * most of them. */
 static void clamp_pixel(const struct denoised_image *image, size_t x, size_t y, size_t at)
 {
     size_t pixel = y * image->width + x;
@@ -156,7 +175,8 @@ static void clamp_pixel(const struct denoised_image *image, size_t x, size_t y, 
     float limit = FAR_ABOVE * ps_max(first, image->least);
     if (known && bright > limit)
         limit = ps_max(limit, bright - OUTLIER_NOISE * largest_noise_near(image, x, y));
-    bool is_outlier = bright > limit && (!known || is_alone(image, x, y, bright));
+    bool is_outlier =
+        bright > limit && (known ? is_alone(image, x, y, bright) : !is_usual(image, x, y, bright));
     float keep = is_outlier ? limit / bright : 1.0f;
     for (int c = 0; c < REGRESSION_COLOURS; c++)
         image->clamped[c][at] = keep * image->light[c][at];

@@ -31,9 +31,9 @@ struct denoised_image {
      * plane to smooth these in. Before the bands `noise` holds N, where halves tell it. */
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *inverse_square, *signal, *noise, *scratch;
-    /* For all images: N^2 over the squares of B^2, sums of weights over the squares of B^2 and
-     * N^2; and each pixel_kind. */
-    float *noise_near, *signal_weight, *noise_weight, *kind;
+    /* For all images: squares of the noise, and of a newer guess of it, over the squares of B^2,
+     * sums of weights over the squares of B^2 and N^2; and each pixel_kind. */
+    float *noise_near, *newer_near, *signal_weight, *noise_weight, *kind;
     float *shrinkage; /* k of the last band */
     float *error;     /* NULL, or its square so far, times inverse_square */
     float threshold;  /* least c of the band under way */
