@@ -597,12 +597,17 @@ static void test_light_of_thin_things_stays(void **state)
 #define CAUSTIC_Y 20
 #define CAUSTIC_RADIUS 9.0f
 
-/* Smooth, and 32 times as bright as the noisy floor around. */
-static float light_of_caustic(int pixel, float *distance)
+/* In pixels; negative inside. */
+static float distance_to_caustic(int pixel)
 {
     float x = (float)(pixel % WIDTH - CAUSTIC_X), y = (float)(pixel / WIDTH - CAUSTIC_Y);
-    *distance = sqrtf(x * x + y * y) - CAUSTIC_RADIUS;
-    float t = fminf(fmaxf(0.5f - *distance / 6.0f, 0.0f), 1.0f);
+    return hypotf(x, y) - CAUSTIC_RADIUS;
+}
+
+/* Smooth, and 32 times as bright as the noisy floor around. */
+static float light_of_caustic(float distance)
+{
+    float t = fminf(fmaxf(0.5f - distance / 6.0f, 0.0f), 1.0f);
     return 3.2f * t * t * (3 - 2 * t);
 }
 
@@ -612,20 +617,19 @@ static void test_no_dark_rim_beside_a_caustic(void **state)
     (void)state;
     struct picture *picture = level_floor();
     struct random random = {31};
-    float distance, darkest = 1;
+    float darkest = 1;
     for (int i = 0; i < PIXELS; i++) {
-        float light = light_of_caustic(i, &distance) + 0.1f * random_between(&random, 0.3f, 1.7f);
+        float noisy = 0.1f * random_between(&random, 0.3f, 1.7f);
+        float light = light_of_caustic(distance_to_caustic(i)) + noisy;
         set_vector(picture->light, i, (ps_vec3){light, light, light});
     }
     denoise(picture, CHOICE, 2);
-    for (int i = 0; i < PIXELS; i++) {
-        light_of_caustic(i, &distance);
-        if (distance > 3.0f)
+    for (int i = 0; i < PIXELS; i++)
+        if (distance_to_caustic(i) > 3.0f)
             darkest = fminf(darkest, picture->light[1][i]);
-    }
+    free(picture);
     print_message("beside a caustic: %.3f at least\n", (double)darkest);
     assert_true(darkest > 0.05f);
-    free(picture);
 }
 
 /* --- pixels that say nothing --- */

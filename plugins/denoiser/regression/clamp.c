@@ -135,33 +135,41 @@ static float largest_noise_near(const struct denoised_image *image, size_t x, si
     return most;
 }
 
-/* Whether at most FEW pixels near it, itself included, are half as bright. */
-static bool is_alone(const struct denoised_image *image, size_t x, size_t y, float bright)
+/* Of the pixels near one, itself included: how many are half as bright as it, how many show its
+ * surface, and how many do both. */
+struct near {
+    int bright, own, own_bright;
+};
+
+static struct near look_near(const struct denoised_image *image, size_t x, size_t y, float bright)
 {
-    int like = 0;
+    struct near near = {0, 0, 0};
+    size_t middle = regression_at(&image->guides, (int)x, (int)y);
     for (int dy = -NEAR; dy <= NEAR; dy++)
         for (int dx = -NEAR; dx <= NEAR; dx++) {
             size_t at = regression_at(&image->guides, (int)x + dx, (int)y + dy);
-            like += brightness_at(image->light, at) > 0.5f * bright;
+            bool is_bright = brightness_at(image->light, at) > 0.5f * bright;
+            bool is_own = regression_is_like(&image->guides, middle, at);
+            near.bright += is_bright;
+            near.own += is_own;
+            near.own_bright += is_bright && is_own;
         }
-    return like <= (image->kind[y * image->width + x] == (float)GLOSSY ? FEW_IN_GLOSS : FEW);
+    return near;
 }
 
-/* Whether most pixels of its surface near by, itself included, are half as bright. Then it is the
- * first fit that is wrong: beside a caustic it is too low. */
+/* Whether hardly any pixels near it are half as bright. */
+static bool is_alone(const struct denoised_image *image, size_t x, size_t y, float bright)
+{
+    int few = image->kind[y * image->width + x] == (float)GLOSSY ? FEW_IN_GLOSS : FEW;
+    return look_near(image, x, y, bright).bright <= few;
+}
+
+/* Whether most pixels of its surface near by are half as bright. Then it is the first fit that is
+ * wrong: beside a caustic it is too low. */
 static bool is_usual(const struct denoised_image *image, size_t x, size_t y, float bright)
 {
-    int like = 0, all = 0;
-    size_t own = regression_at(&image->guides, (int)x, (int)y);
-    for (int dy = -NEAR; dy <= NEAR; dy++)
-        for (int dx = -NEAR; dx <= NEAR; dx++) {
-            size_t at = regression_at(&image->guides, (int)x + dx, (int)y + dy);
-            if (!regression_is_like(&image->guides, own, at))
-                continue;
-            like += brightness_at(image->light, at) > 0.5f * bright;
-            all++;
-        }
-    return all >= LEAST_USUAL && 2 * like > all;
+    struct near near = look_near(image, x, y, bright);
+    return near.own >= LEAST_USUAL && 2 * near.own_bright > near.own;
 }
 
 /* Limits a pixel to FAR_ABOVE times the first fit, in `fine`, unless its brightness cannot be noise
