@@ -92,7 +92,7 @@ size_t film_bytes(const struct film *film);
  * that are `left_out` (NULL: none); call for every tile, then end the pass. Tiles may be added by
  * different threads at once: they touch different pixels. */
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile,
-                   const bool left_out[PS_TILE_PIXELS]);
+                   const uint8_t left_out[PS_TILE_PIXELS]);
 
 /* Adds `share` of what each of `count` lanes of a G-buffer's only tile gathered, from lane `first`
  * on, to pixel (x, y) of the picture, whose own lane was left out. They are all of that pixel's,

@@ -298,7 +298,7 @@ bool film_has_tile(const struct film *film, const struct gbuffer *gbuffer, uint3
 }
 
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index,
-                   const bool left_out[PS_TILE_PIXELS])
+                   const uint8_t left_out[PS_TILE_PIXELS])
 {
     assert(index < gbuffer->tile_count);
     const struct rectangle part = part_in_film(film, gbuffer, index);

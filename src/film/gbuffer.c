@@ -91,8 +91,8 @@ ps_result gbuffer_create(struct gbuffer layout, struct gbuffer *gbuffer, struct 
     gbuffer->tiles = aligned_alloc(64, gbuffer->tile_count * sizeof(ps_tile));
     gbuffer->direct = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
     gbuffer->emitted = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
-    gbuffer->stochastic = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(bool));
-    if (gbuffer->tiles && gbuffer->direct && gbuffer->emitted && gbuffer->stochastic)
+    gbuffer->choice = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS);
+    if (gbuffer->tiles && gbuffer->direct && gbuffer->emitted && gbuffer->choice)
         return PS_OK;
     size_t bytes = gbuffer_bytes(gbuffer);
     gbuffer_release(gbuffer);
@@ -176,7 +176,7 @@ void gbuffer_release(struct gbuffer *gbuffer)
     free(gbuffer->hard);
     free(gbuffer->hard_half);
     free(gbuffer->emitted);
-    free(gbuffer->stochastic);
+    free(gbuffer->choice);
     free(gbuffer->glossy);
     free(gbuffer->geometric_normals);
     *gbuffer = (struct gbuffer){.tiles = NULL};
@@ -184,7 +184,7 @@ void gbuffer_release(struct gbuffer *gbuffer)
 
 size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts parts)
 {
-    size_t lane = sizeof *layout->direct + sizeof *layout->emitted + sizeof *layout->stochastic;
+    size_t lane = sizeof *layout->direct + sizeof *layout->emitted + sizeof *layout->choice;
     if (parts.discontinuity_buffer)
         lane += sizeof *layout->occlusion + sizeof *layout->direct_scratch;
     if (parts.direct_half)
@@ -358,7 +358,7 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
     memset(tile, 0, sizeof *tile);
     clear_radiance(gbuffer, index);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
-    memset(&gbuffer->stochastic[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(bool));
+    memset(&gbuffer->choice[(size_t)index * PS_TILE_PIXELS], CHOSEN_BY_NOTHING, PS_TILE_PIXELS);
     if (gbuffer->glossy) {
         memset(gbuffer->glossy[index].depth, 0, sizeof gbuffer->glossy[index].depth);
         memset(gbuffer->glossy[index].sharp, 0, sizeof gbuffer->glossy[index].sharp);

@@ -33,6 +33,9 @@ struct glossy_tile {
     bool sharp[PS_TILE_PIXELS];  /* a mirror, with nothing behind: what it shows has no noise */
 };
 
+/* What decided where the path of a pixel's sample ends: nothing, or a matter of chance. */
+enum path_choice { CHOSEN_BY_NOTHING, CHOSEN_BY_LENS_OR_GLOSS, CHOSEN_BY_GLASS };
+
 struct gbuffer {
     size_t width, height;                          /* of the picture */
     uint32_t picture_across;                       /* tiles in a row of it */
@@ -40,9 +43,9 @@ struct gbuffer {
     uint32_t tiles_across, tiles_down, tile_count; /* of the window */
     ps_tile *tiles;                                /* 64-byte aligned, owned */
     /* Arrays with a value for each lane of each tile, owned. */
-    ps_rgb *direct;   /* direct irradiance, W/m^2 */
-    ps_rgb *emitted;  /* radiance collected along the camera path, W/(m^2 sr) */
-    bool *stochastic; /* another sample's path may end elsewhere: lens, gloss, glass */
+    ps_rgb *direct;  /* direct irradiance, W/m^2 */
+    ps_rgb *emitted; /* radiance collected along the camera path, W/(m^2 sr) */
+    uint8_t *choice; /* enum path_choice */
     /* The same, but NULL where they are not prepared. */
     ps_rgb *direct_half;      /* direct irradiance by the second half of the shadow rays */
     ps_rgb *hard, *hard_half; /* the part of both of lights that cast hard shadows */
@@ -79,7 +82,7 @@ ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_geometric_normals(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
 
-/* What a buffer has besides tiles, direct and emitted light, and `stochastic`. */
+/* What a buffer has besides tiles, direct and emitted light, and `choice`. */
 struct gbuffer_parts {
     bool discontinuity_buffer, direct_half, hard, glossy, geometric_normals, radiance;
 };
@@ -121,7 +124,7 @@ bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t 
                   uint32_t *lane);
 
 /* Makes all lanes of a tile see nothing, meet no glossy surface, and zeroes its accumulators,
- * emitted radiance and stochastic. */
+ * emitted radiance and choice. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 
 /* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput`

@@ -128,11 +128,11 @@ static void host_tile_hits(const ps_host *host, uint32_t index, ps_ray *rays, ps
 static void trace_surfaces(const struct render *render, uint32_t index, ps_tile *tile)
 {
     ps_rgb emitted[PS_TILE_PIXELS];
-    bool stochastic[PS_TILE_PIXELS];
+    uint8_t choice[PS_TILE_PIXELS];
     struct gbuffer alone = gbuffer_layout(PS_TILE_SIZE, PS_TILE_SIZE);
     alone.tiles = tile;
     alone.emitted = emitted;
-    alone.stochastic = stochastic;
+    alone.choice = choice;
     struct view_pass pass = {
         .lighting = {.scene = render->scene, .trace = render->trace},
         .gbuffer = &alone,

@@ -72,7 +72,7 @@ static double gbuffer_part(const struct gbuffer *layout, const struct planes *pl
         (struct gbuffer_parts){planes->discontinuity_buffer, planes->direct_half, planes->hard,
                                planes->gloss, planes->geometric, planes->radiance});
     if (planes->edges)
-        bytes += layout->tile_count * PS_TILE_PIXELS * sizeof(bool);
+        bytes += layout->tile_count * PS_TILE_PIXELS;
     if (planes->splats || planes->caustics)
         bytes += interleaved_bytes(&interleaved);
     return (double)bytes + (planes->splats ? (double)gathered_light_bytes(layout) : 0);

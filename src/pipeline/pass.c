@@ -120,7 +120,7 @@ static void add_off_edges(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     struct render *render = work->render;
-    const bool *edges = render->edges + index * PS_TILE_PIXELS;
+    const uint8_t *edges = render->edges + index * PS_TILE_PIXELS;
     if (film_has_tile(&render->film, &render->gbuffer, (uint32_t)index))
         film_add_tile(&render->film, &render->gbuffer, (uint32_t)index, edges);
     fireflies_spread(&render->gbuffer, (uint32_t)index);

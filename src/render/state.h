@@ -53,7 +53,7 @@ struct render {
     struct film_sum own_sum; /* where the caller has none; owned */
     bool unfinished; /* the film holds a pass without its indirect light, or without smooth edges */
     double dark_pixels;   /* of the last picture: without weight */
-    bool *edges;          /* pixels that take several samples (edges.h), owned; NULL: none does */
+    uint8_t *edges;       /* pixels that take several samples (edges.h), owned; NULL: none does */
     uint32_t part, parts; /* see ps_pass */
     struct photon_stream photons;
     /* Made when light paths are first asked for, or before, where pixels need it. */

@@ -27,6 +27,7 @@
 
 struct neighbourhood {
     int there[SIDE][SIDE]; /* 0: outside of the picture */
+    int glass[SIDE][SIDE]; /* the sample's path met some */
     uint32_t object[SIDE][SIDE];
     float x[SIDE][SIDE], y[SIDE][SIDE], z[SIDE][SIDE];
     float normal_x[SIDE][SIDE], normal_y[SIDE][SIDE], normal_z[SIDE][SIDE];
@@ -67,6 +68,7 @@ static void load_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, int 
     ps_rgb reflected = ps_rgb_scale(ps_rgb_multiply(albedo, gbuffer->direct[pixel]), 1.0f / PS_PI);
     ps_rgb radiance = ps_rgb_add(gbuffer->emitted[pixel], reflected);
     around->there[row][column] = 1;
+    around->glass[row][column] = gbuffer->choice[pixel] == CHOSEN_BY_GLASS;
     around->object[row][column] = tile->object[lane];
     around->x[row][column] = tile->position_x[lane];
     around->y[row][column] = tile->position_y[lane];
@@ -148,7 +150,14 @@ static void compare_row(const struct neighbourhood *around, int row, int dx, int
     }
 }
 
-void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS])
+static bool is_near_glass(const struct neighbourhood *around, int row, int column)
+{
+    return around->glass[row][column] || around->glass[row][column - 1] ||
+           around->glass[row][column + 1] || around->glass[row - 1][column] ||
+           around->glass[row + 1][column];
+}
+
+void edges_find(const struct gbuffer *gbuffer, uint32_t tile, uint8_t edges[PS_TILE_PIXELS])
 {
     static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     struct neighbourhood around;
@@ -167,8 +176,10 @@ void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE
             compare_row(&around, row, neighbours[i][0], neighbours[i][1], differs);
         for (int i = 0; i < PS_TILE_SIZE; i++) {
             int lane = row * PS_TILE_SIZE + i;
-            bool stochastic = gbuffer->stochastic[(size_t)tile * PS_TILE_PIXELS + (size_t)lane];
-            edges[lane] = around.there[row + 1][i + 1] && (differs[i] || stochastic);
+            bool by_chance = gbuffer->choice[(size_t)tile * PS_TILE_PIXELS + (size_t)lane];
+            bool is_edge = around.there[row + 1][i + 1] && (differs[i] || by_chance);
+            bool glass = is_near_glass(&around, row + 1, i + 1);
+            edges[lane] = (uint8_t)(!is_edge ? NO_EDGE : glass ? GLASS_EDGE : EDGE);
         }
     }
 }

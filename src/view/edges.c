@@ -17,30 +17,32 @@ struct edge_samples {
     _Alignas(64) ps_tile tile;
     ps_rgb direct[PS_TILE_PIXELS], direct_half[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
     ps_rgb hard[PS_TILE_PIXELS], hard_half[PS_TILE_PIXELS];
-    bool stochastic[PS_TILE_PIXELS];
+    uint8_t choice[PS_TILE_PIXELS]; /* enum path_choice */
     struct glossy_tile glossy;
     float radiance[3 * PS_TILE_PIXELS];
     struct view_points points;
     uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
     struct light_runs light_runs;
-    float pattern[MOST_AA_SAMPLES][2]; /* where in each pixel they lie */
+    float pattern[GLASS_SAMPLES * MOST_AA_SAMPLES][2]; /* where in each pixel they lie */
 };
 
 static void draw_pattern(const struct edge_pass *pass, struct edge_samples *batch)
 {
     uint32_t key = sample_key(pass->seed | EDGE_SEED, PS_STREAM_PIXEL, 0);
-    for (uint32_t sample = 0; sample < pass->samples; sample++) {
+    uint32_t samples = batch->points.samples_of_pixel;
+    for (uint32_t sample = 0; sample < samples; sample++) {
         float numbers[4];
-        sample_point(key, (uint64_t)pass->number * pass->samples + sample, numbers);
+        sample_point(key, (uint64_t)pass->number * samples + sample, numbers);
         pixel_filter_point(pass->lighting->scene->pixel_filter, numbers, batch->pattern[sample]);
     }
 }
 
 /* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere; two make
  * halves. */
-static uint32_t light_samples_of(const struct edge_pass *pass)
+static uint32_t light_samples_of(const struct edge_pass *pass, const struct edge_samples *batch)
 {
-    uint32_t wanted = (pass->lighting->scene->light_samples + pass->samples - 1) / pass->samples;
+    uint32_t samples = batch->points.samples_of_pixel;
+    uint32_t wanted = (pass->lighting->scene->light_samples + samples - 1) / samples;
     uint32_t least = pass->gbuffer->direct_half ? 2 : 1;
     return wanted > least ? wanted : least;
 }
@@ -50,13 +52,13 @@ static void add_sample(const struct edge_pass *pass, uint32_t tile, uint32_t lan
 {
     uint32_t to = (uint32_t)batch->points.count++;
     uint64_t block = ps_sample_block(gbuffer_number(pass->gbuffer, tile), lane);
-    uint64_t number = (uint64_t)pass->number * pass->samples + sample;
+    uint64_t number = (uint64_t)pass->number * batch->points.samples_of_pixel + sample;
     gbuffer_pixel(pass->gbuffer, tile, lane, &batch->x[to], &batch->y[to]);
     batch->points.lanes[to] = to;
     batch->points.x[to] = (float)batch->x[to] + batch->pattern[sample][0];
     batch->points.y[to] = (float)batch->y[to] + batch->pattern[sample][1];
     batch->points.indices[to] = block + number;
-    batch->light_runs.first[to] = block + number * light_samples_of(pass);
+    batch->light_runs.first[to] = block + number * light_samples_of(pass, batch);
     batch->light_runs.of_lane[to] = (uint8_t)to;
 }
 
@@ -70,15 +72,16 @@ static void add_to_film(const struct edge_pass *pass, const struct gbuffer *samp
                         struct edge_samples *batch, struct film *film)
 {
     uint32_t count = (uint32_t)batch->points.count;
+    float share = 1.0f / (float)batch->points.samples_of_pixel;
     for (uint32_t first = 0, end; first < count; first = end) {
         struct edge_neighbours neighbours;
         edge_neighbours_find(pass->gbuffer, batch->x[first], batch->y[first], &neighbours);
         for (end = first; end < count && same_pixel(batch, first, end); end++)
             edge_interpolate(pass->gbuffer, &neighbours, batch->x[end], batch->y[end],
-                             batch->stochastic[end], &batch->tile, end);
+                             batch->choice[end], &batch->tile, end);
         if (film_has_pixel(film, batch->x[first], batch->y[first]))
-            film_add_samples(film, samples, first, end - first, 1.0f / (float)pass->samples,
-                             batch->x[first], batch->y[first]);
+            film_add_samples(film, samples, first, end - first, share, batch->x[first],
+                             batch->y[first]);
     }
 }
 
@@ -99,7 +102,7 @@ static void flush(const struct edge_pass *pass, struct edge_samples *batch, stru
         .hard = pass->gbuffer->hard ? batch->hard : NULL,
         .hard_half = pass->gbuffer->hard_half ? batch->hard_half : NULL,
         .emitted = batch->emitted,
-        .stochastic = batch->stochastic,
+        .choice = batch->choice,
         .glossy = pass->gbuffer->glossy ? &batch->glossy : NULL,
         .radiance = pass->gbuffer->radiance ? batch->radiance : NULL,
     };
@@ -110,32 +113,29 @@ static void flush(const struct edge_pass *pass, struct edge_samples *batch, stru
     };
     view_trace(&view, &batch->points, 0);
     batch->light_runs.count = batch->points.count;
-    direct_light_tile(lighting, &gbuffer, 0, view.seed, &batch->light_runs, light_samples_of(pass));
+    direct_light_tile(lighting, &gbuffer, 0, view.seed, &batch->light_runs,
+                      light_samples_of(pass, batch));
     add_to_film(pass, &gbuffer, batch, film);
     batch->points.count = 0;
 }
 
-static bool has_edges(const bool edges[PS_TILE_PIXELS])
+/* The pixels of one kind, each by so many samples. */
+static void sample_edges(const struct edge_pass *pass, uint32_t tile, enum edge_kind kind,
+                         uint32_t samples, struct film *film)
 {
-    bool any = false;
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-        any |= edges[lane];
-    return any;
-}
-
-static void sample_edges(const struct edge_pass *pass, uint32_t tile, const bool *edges,
-                         struct film *film)
-{
+    const uint8_t *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
     struct edge_samples batch;
-    draw_pattern(pass, &batch);
+    if (!memchr(edges, (int)kind, PS_TILE_PIXELS))
+        return;
+    batch.points.samples_of_pixel = samples;
     batch.points.count = 0;
-    batch.points.samples_of_pixel = pass->samples;
+    draw_pattern(pass, &batch);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        if (!edges[lane])
+        if (edges[lane] != kind)
             continue;
-        if (batch.points.count > 0 && batch.points.count + pass->samples > PS_TILE_PIXELS)
+        if (batch.points.count > 0 && batch.points.count + samples > PS_TILE_PIXELS)
             flush(pass, &batch, film);
-        for (uint32_t sample = 0; sample < pass->samples; sample++) {
+        for (uint32_t sample = 0; sample < samples; sample++) {
             add_sample(pass, tile, lane, sample, &batch);
             if (batch.points.count == PS_TILE_PIXELS)
                 flush(pass, &batch, film);
@@ -148,7 +148,8 @@ static void sample_edges(const struct edge_pass *pass, uint32_t tile, const bool
 void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
 {
     assert(tile < pass->gbuffer->tile_count);
-    const bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
-    if (film_has_tile(film, pass->gbuffer, tile) && has_edges(edges))
-        sample_edges(pass, tile, edges, film);
+    if (!film_has_tile(film, pass->gbuffer, tile))
+        return;
+    sample_edges(pass, tile, EDGE, pass->samples, film);
+    sample_edges(pass, tile, GLASS_EDGE, GLASS_SAMPLES * pass->samples, film);
 }

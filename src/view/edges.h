@@ -4,7 +4,9 @@
  * A pass takes one camera sample of each pixel. A pixel is an edge where it differs from one of its
  * four neighbours in surface, in reflectance (by more than a quarter), or in emitted and direct
  * light (by more than a quarter and by more than three standard deviations of its noise), or where
- * its sample is stochastic (lens, gloss, glass). Edge pixels take `samples` camera samples instead.
+ * its sample is stochastic (lens, gloss, glass). Edge pixels take `samples` camera samples instead,
+ * and GLASS_SAMPLES times as many where they or a pixel beside them see glass: what it shows takes
+ * many ways, and changes fast along its rim.
  * Each has its own surface, emission and direct light; its indirect light, which is expensive, is
  * interpolated from the pixels around (edge_interpolation.h) after fireflies.h. The offsets of the
  * samples in their pixel are the same in all pixels of a pass.
@@ -23,18 +25,22 @@
 #include "direct/direct.h"
 #include "film/film.h"
 
+/* What pixels are to a pass. */
+enum edge_kind { NO_EDGE, EDGE, GLASS_EDGE };
+enum { GLASS_SAMPLES = 4 };
+
 /* A pass whose G-buffer has all its light. */
 struct edge_pass {
     const struct lighting *lighting;
     const struct gbuffer *gbuffer;
-    const bool *edges; /* which lanes of its tiles are edges, by edges_find in pass 0 */
+    const uint8_t *edges; /* enum edge_kind of each lane of its tiles, by edges_find in pass 0 */
     uint64_t seed;
     uint32_t number;  /* of the pass */
     uint32_t samples; /* of a pixel at an edge, at most MOST_AA_SAMPLES */
 };
 
-/* Which pixels of a tile are edges. Reads neighbouring tiles. */
-void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS]);
+/* The enum edge_kind of each pixel of a tile. Reads neighbouring tiles. */
+void edges_find(const struct gbuffer *gbuffer, uint32_t tile, uint8_t edges[PS_TILE_PIXELS]);
 
 /* Adds a tile's pixels at edges to the film, by the mean of their samples. Any thread, a tile each,
  * when fireflies_spread() is done for all tiles. */

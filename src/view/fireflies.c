@@ -97,12 +97,12 @@ static void add(float *irradiance, const float *keep, const float *more)
 void fireflies_spread(struct gbuffer *gbuffer, uint32_t index)
 {
     ps_tile *tile = &gbuffer->tiles[index];
-    const bool *stochastic = &gbuffer->stochastic[(size_t)index * PS_TILE_PIXELS];
+    const uint8_t *choice = &gbuffer->choice[(size_t)index * PS_TILE_PIXELS];
     struct shares shares;
     bool any = false;
     begin(tile, &shares);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        float times = stochastic[lane] ? TIMES_STOCHASTIC : TIMES;
+        float times = choice[lane] ? TIMES_STOCHASTIC : TIMES;
         if (tile->object[lane] != PS_NO_OBJECT && stands_out(shares.bright, lane, times))
             any |= share_out(tile, lane, times, &shares);
     }

@@ -51,8 +51,8 @@ static ps_ray camera_ray_at(const struct view_pass *pass, const struct view_poin
 static void start(const struct view_pass *pass, const struct view_points *points, uint32_t tile,
                   struct camera_paths *paths)
 {
-    bool *stochastic =
-        pass->hits ? NULL : &pass->gbuffer->stochastic[(size_t)tile * PS_TILE_PIXELS];
+    bool lens = pass->lighting.scene->camera.aperture > 0.0f;
+    uint8_t *choice = pass->hits ? NULL : &pass->gbuffer->choice[(size_t)tile * PS_TILE_PIXELS];
     paths->count = points->count;
     paths->indices = points->indices;
     for (size_t i = 0; i < points->count; i++) {
@@ -64,8 +64,8 @@ static void start(const struct view_pass *pass, const struct view_points *points
         paths->pdfs[i] = 0.0f;
         paths->spreads[i] = CONE_SIDE * camera_pixel_spread(&pass->lighting.scene->camera,
                                                             paths->rays[i].direction);
-        if (stochastic)
-            stochastic[points->lanes[i]] = pass->lighting.scene->camera.aperture > 0.0f;
+        if (choice)
+            choice[points->lanes[i]] = lens ? CHOSEN_BY_LENS_OR_GLOSS : CHOSEN_BY_NOTHING;
     }
 }
 
@@ -168,8 +168,8 @@ static void note_gloss(const struct view_pass *pass, uint32_t tile,
                              paths->travelled[i]);
 }
 
-/* Marks pixels whose path goes on stochastically, which take several samples. Glass does not stand
- * for the pixel, as gloss does: what is seen through it is sharp. */
+/* Marks pixels whose path goes on by chance, which take several samples, most where they see glass.
+ * Glass does not stand for the pixel, as gloss does: what is seen through it is sharp. */
 static void note_scattering(const struct view_pass *pass, uint32_t tile,
                             const struct camera_paths *paths, size_t i, const ps_hit *hit,
                             const ps_bsdf_sample *on)
@@ -178,8 +178,11 @@ static void note_scattering(const struct view_pass *pass, uint32_t tile,
     bool refracts = material_refracts(&pass->lighting.scene->materials[hit->material]);
     if (pass->hits)
         return;
-    if (gloss || refracts)
-        pass->gbuffer->stochastic[(size_t)tile * PS_TILE_PIXELS + paths->lanes[i]] = true;
+    uint8_t *choice = &pass->gbuffer->choice[(size_t)tile * PS_TILE_PIXELS + paths->lanes[i]];
+    if (refracts)
+        *choice = CHOSEN_BY_GLASS;
+    else if (gloss && *choice == CHOSEN_BY_NOTHING)
+        *choice = CHOSEN_BY_LENS_OR_GLOSS;
     if (gloss || !refracts)
         note_gloss(pass, tile, paths, i, hit, !gloss);
 }

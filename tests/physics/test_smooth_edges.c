@@ -214,6 +214,33 @@ static void test_noise_off_the_edges_stays(void **state)
     rendering_release(&edges);
 }
 
+/* A ball of glass, along whose rim what is seen changes within a pixel, and each of the ways that
+ * light takes in it shows something else. */
+static const char glass_ball[] =
+    "psd: 1\n"
+    "camera: {location: [0, 1.6, -4], look_at: [0, 0.6, 0], angle: 20}\n"
+    "image: {width: 64, height: 64}\n"
+    "materials:\n"
+    "  floor: {diffuse: {checker: {colors: [0.2, 0.8], scale: 0.5}}}\n"
+    "  glass: {dielectric: {ior: 1.5}}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-9, 0, -9], [-9, 0, 9], [9, 0, 9], [9, 0, -9]], material: floor}\n"
+    "  - quad: {corners: [[-9, 0, 9], [-9, 9, 9], [9, 9, 9], [9, 0, 9]], material: floor}\n"
+    "  - sphere: {center: [0, 0.6, 0], radius: 0.6, material: glass}\n";
+
+static void test_glass_takes_more_samples(void **state)
+{
+    (void)state;
+    static const char even[] = "estimator=ambient:irradiance=2";
+    struct rendering reference = look_at(glass_ball, even, 256, 8);
+    struct rendering one = look_at(glass_ball, even, 1, 8);
+    double error = error_of(&one, &reference, "R");
+    print_message("a ball of glass: %.2f %%\n", 100 * error);
+    assert_true(error < 0.055);
+    rendering_release(&reference);
+    rendering_release(&one);
+}
+
 /* Through a pane the foot of a bright wall is seen, and the floor before the pane, mirrored: what
  * of it a sample has, chance decides. */
 static const char pane[] =
@@ -297,6 +324,7 @@ int main(void)
         SLOW_TEST(test_passes_add_to_it),
         cmocka_unit_test(test_light_at_edges_is_that_nearby),
         cmocka_unit_test(test_noise_off_the_edges_stays),
+        cmocka_unit_test(test_glass_takes_more_samples),
         cmocka_unit_test(test_light_behind_glass_stays_where_it_is),
         cmocka_unit_test(test_the_mean_stays),
         cmocka_unit_test(test_cancelled_at_the_edges),

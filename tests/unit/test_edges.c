@@ -39,7 +39,7 @@ static void fill(uint32_t first, const ps_hit *other, ps_rgb other_direct, ps_rg
 static void expect_edge_at(uint32_t first)
 {
     for (uint32_t tile = 0; tile < gbuffer.tile_count; tile++) {
-        bool edges[PS_TILE_PIXELS];
+        uint8_t edges[PS_TILE_PIXELS];
         edges_find(&gbuffer, tile, edges);
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             uint32_t x, y;
@@ -109,12 +109,32 @@ static void test_bumps_are_none(void **state)
 static void test_pixels_that_show_something_by_chance(void **state)
 {
     (void)state;
-    bool edges[PS_TILE_PIXELS];
+    uint8_t edges[PS_TILE_PIXELS];
     fill(7, &grey, one, none);
-    gbuffer.stochastic[5] = true;
+    gbuffer.choice[5] = CHOSEN_BY_LENS_OR_GLOSS;
     edges_find(&gbuffer, 0, edges);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         assert_int_equal(edges[lane], lane == 5);
+}
+
+/* The pixels around such a pixel take as many samples as it does, if they are edges. */
+static void test_pixels_that_see_glass(void **state)
+{
+    (void)state;
+    uint8_t edges[PS_TILE_PIXELS];
+    fill(7, &grey, (ps_rgb){2, 2, 2}, none);
+    gbuffer.choice[6] = CHOSEN_BY_GLASS;
+    gbuffer.choice[4 * PS_TILE_SIZE + 3] = CHOSEN_BY_GLASS;
+    edges_find(&gbuffer, 0, edges);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        uint32_t x = lane % PS_TILE_SIZE;
+        bool sees_glass = lane == 6 || lane == 4 * PS_TILE_SIZE + 3;
+        bool is_beside = lane == 7 || lane == PS_TILE_SIZE + 6;
+        bool is_edge = x == 6 || x == 7;
+        assert_int_equal(edges[lane], sees_glass || is_beside ? GLASS_EDGE
+                                      : is_edge               ? EDGE
+                                                              : NO_EDGE);
+    }
 }
 
 /* By more than a quarter of the larger one. */
@@ -178,6 +198,7 @@ int main(void)
         cmocka_unit_test(test_edges_between_tiles),
         cmocka_unit_test(test_bumps_are_none),
         cmocka_unit_test(test_pixels_that_show_something_by_chance),
+        cmocka_unit_test(test_pixels_that_see_glass),
         cmocka_unit_test(test_light_and_albedo_that_differ),
         cmocka_unit_test(test_noise_is_none), /* last: the G-buffer has halves from here on */
     };

@@ -118,7 +118,7 @@ static void expect(enum film_plane plane, uint32_t x, uint32_t y, double expecte
 static void test_samples_take_the_place_of_a_lane(void **state)
 {
     (void)state;
-    bool left_out[PS_TILE_PIXELS] = {false};
+    uint8_t left_out[PS_TILE_PIXELS] = {false};
     left_out[1] = true;
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 3; lane++) {
@@ -414,7 +414,7 @@ static void test_variance(void **state)
 {
     (void)state;
     struct error error;
-    static const bool left_out[PS_TILE_PIXELS] = {[3] = true};
+    static const uint8_t left_out[PS_TILE_PIXELS] = {[3] = true};
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(film_add_plane(&bench.film, FILM_VARIANCE, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);

@@ -36,7 +36,7 @@ static void fill(bool stochastic, float height)
         hit.position.y = (float)(lane / PS_TILE_SIZE);
         hit.position.z = is_right(lane) ? height : 0.0f;
         gbuffer_store(tile(), lane, &hit, (ps_rgb){1, 1, 1}, 1);
-        gbuffer.stochastic[lane] = stochastic;
+        gbuffer.choice[lane] = stochastic ? CHOSEN_BY_LENS_OR_GLOSS : CHOSEN_BY_NOTHING;
         ps_add_irradiance(tile(), lane, (ps_rgb){1, 2, 3});
     }
 }
