@@ -177,6 +177,7 @@ static ps_result gather(const struct state *state, struct work *work)
                   .roulette = (uint32_t)state->roulette,
                   .caustics_below = work->pass->specular ? PATHS_ALL_CAUSTICS : 0.0f},
         .samples = (uint64_t)state->samples,
+        .first = gather_first_of((uint64_t)state->samples),
         .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
         .lookup = work->cache.irradiance ? look_up : NULL,
         .cache = &work->cache,

@@ -280,6 +280,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
                               .roulette = (uint32_t)state->roulette,
                               .caustics_below = pass->specular ? PS_ROUGH_GLOSS : 0.0f},
                     .samples = (uint64_t)state->samples,
+                    .first = gather_first_of((uint64_t)state->samples),
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .share_before = SURFEL_SHARE},
         .surfels = &cache->surfels,

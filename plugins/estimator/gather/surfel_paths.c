@@ -68,12 +68,13 @@ ps_result surfel_paths_correct(const ps_pass *pass, uint32_t roulette, uint64_t 
     const struct paths_setting setting = {
         .host = host, .pass = &left, .roulette = roulette, .least_roughness = PS_ROUGH_GLOSS};
     struct step first = {
-        .setting = {.paths = setting, .samples = full, .most = full},
+        .setting = {.paths = setting, .samples = full, .first = GATHER_MOST_FIRST, .most = full},
         .first_index = pass->tile_count,
     };
     struct step second = {
         .setting = {.paths = setting,
                     .samples = paths,
+                    .first = GATHER_MOST_FIRST,
                     .most = paths,
                     .lookup = surfel_table_lookup,
                     .cache = surfels,

@@ -39,18 +39,19 @@ static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *ti
 {
     uint32_t lanes[PS_TILE_PIXELS];
     float found[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
+    uint64_t first = gather->setting->first;
     size_t count = 0;
     for (size_t i = 0; i < gather->points.count; i++) {
         float light = 0.0f, of_half = 0.0f;
         if (which != BOTH_HALVES && gather_half_of(gather, i) != (int)which)
             continue;
-        for (int number = 0; number < GATHER_FIRST; number++) {
-            if (number == GATHER_FIRST / 2)
+        for (uint64_t number = 0; number < first; number++) {
+            if (number == first / 2)
                 of_half = light;
             light += ps_luminance(gather->first.found[number][i]);
         }
         uint32_t lane = gather->points.lanes[i];
-        float scale = ps_luminance(ps_tile_reflectance(tile, lane)) / (float)GATHER_FIRST;
+        float scale = ps_luminance(ps_tile_reflectance(tile, lane)) / (float)first;
         found[count] = scale * light;
         half[count] = 2.0f * scale * of_half;
         lanes[count++] = lane;
@@ -95,7 +96,7 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
         work->first_rounds[slot].guide_count = 0; /* also of a tile that sees nothing */
     if (!begin_tile(work, index, &tile, &gather))
         return;
-    gather_samples(&gather, GATHER_FIRST);
+    gather_samples(&gather, work->setting->first);
     sample_factors(&gather.points, gather.first.factors);
     work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
     work->pilots[index].factors = sum_of_factors(&gather);
@@ -153,7 +154,7 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
         ps_add_irradiance(tile, gather.points.lanes[i], gather.irradiance[i]);
-    if (samples > GATHER_FIRST)
+    if (samples > work->setting->first)
         tell_variance(&gather, samples, tile);
 }
 
@@ -208,9 +209,9 @@ static struct allocation allocation_of(const struct work *work, struct tile_pilo
     /* The first round may have missed all that there is to be found in a tile, and has much more
      * noise than guided rays: half of those are taken everywhere. */
     const struct allocation_limits limits = {
-        .first = GATHER_FIRST,
+        .first = setting->first,
         .samples = setting->samples,
-        .least = GATHER_FIRST + (setting->samples - GATHER_FIRST + 1) / 2,
+        .least = setting->first + (setting->samples - setting->first + 1) / 2,
         .most = setting->most,
     };
     for (size_t i = 0; i < tiles; i++)
@@ -247,7 +248,8 @@ static ps_result allocate_samples(struct work *work, struct gather_allocation *a
     work->allocation = allocation;
     ps_result result = make_slots(work);
     double before = work->setting->share_before;
-    double first = before + (1.0 - before) * (double)GATHER_FIRST / (double)work->setting->samples;
+    double first =
+        before + (1.0 - before) * (double)work->setting->first / (double)work->setting->samples;
     host->progress_part(host, before, first);
     if (result == PS_OK)
         result = find_allocation(work, allocation);
@@ -262,7 +264,7 @@ ps_result gather_picture(const struct gather_setting *setting, bool adaptive,
     struct work work = {.setting = setting};
     host->progress_part(host, setting->share_before, 1.0);
     ps_result result =
-        adaptive && setting->samples > GATHER_FIRST ? allocate_samples(&work, allocation) : PS_OK;
+        adaptive && setting->samples > setting->first ? allocate_samples(&work, allocation) : PS_OK;
     if (result == PS_OK)
         result = host->for_each_tile(host, gather_tile, &work);
     host->release(host, work.first_rounds);

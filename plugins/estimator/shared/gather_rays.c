@@ -7,8 +7,15 @@
 #define SAME_FACING 0.8f /* cosine of two normals that share a guide */
 #define FROM_AROUND 0.5f /* of the light that the gathers around found, for that found here */
 
-_Static_assert((int)GATHER_FIRST == (int)CONTACT_RAYS,
-               "those of the first round look for what is near");
+/* Two rays teach less than four, and single lucky ones leave specks where light is rare; but of few
+ * samples, four would leave hardly any to be guided, and of two or three one guided ray is not
+ * worth what guides cost. */
+uint64_t gather_first_of(uint64_t samples)
+{
+    if (samples < GATHER_MOST_FIRST)
+        return samples;
+    return samples < 2 * GATHER_MOST_FIRST ? GATHER_MOST_FIRST / 2 : GATHER_MOST_FIRST;
+}
 
 /* --- guides --- */
 
@@ -85,9 +92,9 @@ struct batch {
 /* Guided ones of a point, where its group has so many samples. */
 static uint64_t guided_of(const struct gather *gather, size_t point, uint64_t samples)
 {
-    if (samples <= GATHER_FIRST)
+    if (samples <= gather->setting->first)
         return 0;
-    float wanted = (float)(samples - GATHER_FIRST) * gather->first.factors[point];
+    float wanted = (float)(samples - gather->setting->first) * gather->first.factors[point];
     return wanted > 1.0f ? (uint64_t)(wanted + 0.5f) : 1;
 }
 
@@ -107,10 +114,10 @@ static void add_square(struct gather *gather, size_t i, ps_rgb found, float weig
 
 float gather_variance(const struct gather *gather, size_t point, uint64_t samples)
 {
-    float n = (float)(GATHER_FIRST + guided_of(gather, point, samples));
+    float n = (float)(gather->setting->first + guided_of(gather, point, samples));
     float sum = contact_mean_of_channels(gather->irradiance[point]),
           squares = gather->squares[point];
-    for (int number = 0; number < GATHER_FIRST; number++) {
+    for (uint64_t number = 0; number < gather->setting->first; number++) {
         float weight = gather->first_weights[number][point];
         float light = weight * contact_mean_of_channels(gather->first.found[number][point]);
         squares += light * light;
@@ -126,7 +133,7 @@ int gather_half_of(const struct gather *gather, size_t point)
 /* p_c / (c p_c + g q), where q is `ratio` of p_c and g the guided rays that are expected. */
 static float balanced(const struct gather *gather, size_t i, float ratio)
 {
-    return 1.0f / ((float)GATHER_FIRST + gather->guided_expected[i] * ratio);
+    return 1.0f / ((float)gather->setting->first + gather->guided_expected[i] * ratio);
 }
 
 static void add_to_guide(struct gather *gather, size_t i, struct guide_bin bin, ps_rgb found)
@@ -166,7 +173,7 @@ static void end_sample(struct gather *gather, const struct batch *batch, size_t 
  * guided rays. */
 static void add_first(struct gather *gather)
 {
-    for (size_t number = 0; number < GATHER_FIRST; number++)
+    for (size_t number = 0; number < gather->setting->first; number++)
         for (size_t i = 0; i < gather->points.count; i++) {
             ps_rgb found = gather->first.found[number][i];
             if (gather->taken[i] == 0 || !(ps_luminance(found) > 0.0f))
@@ -174,7 +181,7 @@ static void add_first(struct gather *gather)
             float share = (float)gather->taken[i] * gather->guided_share[i];
             float ratio = smooth_ratio(gather, i, gather->first.bins[number][i]);
             float weight = share * balanced(gather, i, ratio);
-            add(gather, i, found, weight, number < GATHER_FIRST / 2);
+            add(gather, i, found, weight, number < gather->setting->first / 2);
             gather->first_weights[number][i] += weight;
         }
 }
@@ -304,8 +311,10 @@ static void note_nearest(struct gather *gather, const struct batch *batch,
                          const struct paths *paths, const struct paths_segment *segment)
 {
     for (uint32_t i = 0; i < paths->count; i++) {
-        float *nearest = &gather->first.nearest[batch->of[paths->pixels[i]]];
-        *nearest = ps_min(*nearest, segment->hits[i].distance);
+        uint32_t k = paths->pixels[i];
+        float *nearest = &gather->first.nearest[batch->of[k]];
+        if (gather->done + batch->numbers[k] < CONTACT_RAYS)
+            *nearest = ps_min(*nearest, segment->hits[i].distance);
     }
 }
 
@@ -317,7 +326,7 @@ static void take_batch(struct gather *gather, struct batch *batch)
     start_paths(gather, batch, &paths, &segment);
     for (uint32_t number = 1; paths.count > 0; number++) {
         paths_intersect(&setting->paths, &batch->points, number, &paths, &segment);
-        if (number == 1 && batch->round->is_first)
+        if (number == 1 && gather->done < CONTACT_RAYS)
             note_nearest(gather, batch, &paths, &segment);
         paths_add_emitted(&setting->paths, &paths, &segment, batch->found);
         light_paths(setting, batch, number, &paths, &segment);
@@ -367,7 +376,7 @@ static void update_guides(struct gather *gather)
 void gather_keep_first_round(struct gather *gather)
 {
     struct gather_first *first = &gather->first;
-    for (size_t number = 0; number < GATHER_FIRST; number++)
+    for (size_t number = 0; number < gather->setting->first; number++)
         for (size_t i = 0; i < gather->points.count; i++)
             add_to_guide(gather, i, first->bins[number][i], first->found[number][i]);
     first->guide_count = gather->guide_count;
@@ -393,7 +402,7 @@ void gather_resume(struct gather *gather, const struct gather_first *first,
                    const struct gather_first *const around[], size_t count)
 {
     gather->first = *first;
-    gather->done = GATHER_FIRST;
+    gather->done = gather->setting->first;
     for (uint32_t i = 0; i < gather->guide_count; i++)
         memcpy(gather->guides[i].found, first->histograms[i].found,
                sizeof first->histograms[i].found);
@@ -421,7 +430,7 @@ static void take_round(struct gather *gather, const struct round *round)
     const struct gather_setting *setting = gather->setting;
     uint64_t most = SAMPLE_FACTOR_MOST * setting->most;
     uint64_t before = (uint64_t)setting->paths.pass->number * most + gather->done;
-    if (gather->done == GATHER_FIRST) { /* what was added without guides is weighed anew */
+    if (gather->done == setting->first) { /* what was added without guides is weighed anew */
         memset(gather->irradiance, 0, sizeof gather->irradiance);
         memset(gather->half, 0, sizeof gather->half);
     }
@@ -439,7 +448,7 @@ static bool begin_round(struct gather *gather, uint64_t most, struct round *roun
     bool last = true;
     for (size_t i = 0; i < gather->points.count; i++) {
         uint64_t guided = guided_of(gather, i, round->samples);
-        uint64_t total = guided > 0 ? GATHER_FIRST + guided : round->samples;
+        uint64_t total = guided > 0 ? gather->setting->first + guided : round->samples;
         uint64_t left = total > gather->done ? total - gather->done : 0;
         uint64_t expected = gather->expected_samples[gather_half_of(gather, i)];
         last &= left <= most;
@@ -452,13 +461,21 @@ static bool begin_round(struct gather *gather, uint64_t most, struct round *roun
     return last;
 }
 
-/* Rounds of 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones would
- * learn sooner, but the samples of a round are stratified together, which is worth more. */
+/* Rounds of 2 or 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones
+ * would learn sooner, but the samples of a round are stratified together, which is worth more. */
+static uint64_t longest_round(const struct gather *gather)
+{
+    uint64_t done = gather->done;
+    if (done == 0)
+        return gather->setting->first;
+    return 3 * (done > GATHER_MOST_FIRST ? done : GATHER_MOST_FIRST);
+}
+
 void gather_samples(struct gather *gather, uint64_t samples)
 {
     for (bool last = false; !last;) {
         struct round round = {.samples = samples, .is_first = gather->done == 0};
-        last = begin_round(gather, gather->done == 0 ? GATHER_FIRST : 3 * gather->done, &round);
+        last = begin_round(gather, longest_round(gather), &round);
         round.teaches = !last;
         if (round.longest > 0)
             take_round(gather, &round);

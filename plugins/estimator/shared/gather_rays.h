@@ -28,8 +28,10 @@
 /* Guides of a group, one for each way that its surfaces face. */
 enum { GATHER_GUIDES = 4 };
 
-/* Samples of the first round, after which rays are guided. */
-enum { GATHER_FIRST = 4 };
+/* Samples of the first round, after which rays are guided, at most; and how many of so many in all
+ * are best. */
+enum { GATHER_MOST_FIRST = 4 };
+uint64_t gather_first_of(uint64_t samples);
 
 /* What a cache has of the irradiance where a ray landed, W/m^2. */
 struct cached_irradiance {
@@ -58,6 +60,7 @@ typedef void (*gather_lookup)(const void *cache, const struct gather_landing *la
 struct gather_setting {
     struct paths_setting paths;
     uint64_t samples;     /* from each point, in the mean over groups */
+    uint64_t first;       /* of the first round, at most GATHER_MOST_FIRST */
     uint64_t most;        /* from a point whose factor is 1: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
@@ -73,8 +76,8 @@ struct gather_first {
      * gather_begin() to 1. */
     float factors[PS_TILE_PIXELS];
     float nearest[PS_TILE_PIXELS]; /* least distance that a point's rays went (contact.h) */
-    ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
-    struct guide_bin bins[GATHER_FIRST][PS_TILE_PIXELS];
+    ps_rgb found[GATHER_MOST_FIRST][PS_TILE_PIXELS];
+    struct guide_bin bins[GATHER_MOST_FIRST][PS_TILE_PIXELS];
     uint32_t guide_count;
     struct guide_histogram histograms[GATHER_GUIDES];
 };
@@ -93,7 +96,7 @@ struct gather {
     struct gather_first first;
     /* Sums over the guided rays of the squares of what each adds to the mean of the irradiance's
      * channels; and what the rays of the first round are weighed with. */
-    float squares[PS_TILE_PIXELS], first_weights[GATHER_FIRST][PS_TILE_PIXELS];
+    float squares[PS_TILE_PIXELS], first_weights[GATHER_MOST_FIRST][PS_TILE_PIXELS];
     /* Of the round under way, for each point: its samples, and the index of the first. */
     uint64_t taken[PS_TILE_PIXELS], starts[PS_TILE_PIXELS];
     /* What one of a point's guided samples is of all, and how many of them rays of its half are
@@ -115,7 +118,7 @@ void gather_begin(struct gather *gather);
 void gather_samples(struct gather *gather, uint64_t samples);
 
 /* The variance of the mean of a point's channels of the irradiance, by what its rays found, after
- * `samples`, which are more than GATHER_FIRST. Rays are stratified, so that it is rather less. It
+ * `samples`, which are more than setting->first. Rays are stratified, so that it is rather less. It
  * tells nothing of light that no ray found. */
 float gather_variance(const struct gather *gather, size_t point, uint64_t samples);
 
