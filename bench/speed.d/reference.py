@@ -68,6 +68,14 @@ def picture_path(folder, scene, size, bounces):
     return os.path.join(folder, f"{scene.name}-{size}-{bounces}-picture.exr")
 
 
+def _render(psplat, words, path, say):
+    """Where psplat is interrupted it writes what there is: only a whole picture gets the name, and is used again."""
+    unfinished = path.replace(".exr", ".unfinished.exr")
+    run = psplat.render(words, unfinished)
+    os.replace(unfinished, path)
+    say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")
+
+
 def make_picture(psplat, folder, scene, size, bounces, samples, say):
     """One to look at, denoised, with as many samples as a half of the reference that `make` has made."""
     path = picture_path(folder, scene, size, bounces)
@@ -75,8 +83,7 @@ def make_picture(psplat, folder, scene, size, bounces, samples, say):
         say(f"reference {os.path.basename(path)}: reused")
         return path
     words = [word for word in _words(scene, samples, False) if word != "--plugin=denoiser=none"]
-    run = psplat.render([*words, "--plugin", "denoiser=regression", "--size", size, "--bounces", bounces], path)
-    say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")
+    _render(psplat, [*words, "--plugin", "denoiser=regression", "--size", size, "--bounces", bounces], path, say)
     return path
 
 
@@ -102,6 +109,5 @@ def make(psplat, folder, scene, size, bounces, samples, say, smooth=False):
             say(f"reference {os.path.basename(path)}: reused")
             continue
         words = _words(scene, samples, smooth)
-        run = psplat.render([*words, "--size", size, "--seed", str(seed), "--bounces", bounces], path)
-        say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")
+        _render(psplat, [*words, "--size", size, "--seed", str(seed), "--bounces", bounces], path, say)
     return Reference(psplat, halves, samples)

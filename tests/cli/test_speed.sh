@@ -109,6 +109,15 @@ measure 0 speed --quick --methods pathtrace --rungs 1 --repeats 2
     fail "not two repeats"
 expect_no_text results/speed.md "| splat"
 
+# What a render that was interrupted leaves of a reference is not used.
+printf '#!/bin/sh\n"%s" "$@"\n[ "$1" != render ] || exit 130\n' "$PSPLAT" >interrupted
+chmod +x interrupted
+rm -rf work
+measure 1 speed --quick --methods pathtrace --rungs 1 --psplat "$PWD/interrupted"
+expect_text err "status 130 of $PWD/interrupted render "
+measure 0 speed --quick --methods pathtrace --rungs 1
+expect_no_text err reused
+
 # Each method by both denoisers, and pictures at equal time.
 measure 0 speed --quick --methods pathtrace,photonmap --denoisers none,regression --pictures 0.01
 for denoiser in none regression; do
