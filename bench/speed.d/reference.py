@@ -70,7 +70,7 @@ def picture_path(folder, scene, size, bounces):
 
 def _render(psplat, words, path, say):
     """Where psplat is interrupted it writes what there is: only a whole picture gets the name, and is used again."""
-    unfinished = path.replace(".exr", ".unfinished.exr")
+    unfinished = os.path.splitext(path)[0] + ".unfinished.exr"
     run = psplat.render(words, unfinished)
     os.replace(unfinished, path)
     say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")

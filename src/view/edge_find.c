@@ -26,8 +26,8 @@
 #define SIDE (PS_TILE_SIZE + 2)
 
 struct neighbourhood {
-    int there[SIDE][SIDE]; /* 0: outside of the picture */
-    int glass[SIDE][SIDE]; /* the sample's path met some */
+    int there[SIDE][SIDE];      /* 0: outside of the picture */
+    uint8_t choice[SIDE][SIDE]; /* enum path_choice */
     uint32_t object[SIDE][SIDE];
     float x[SIDE][SIDE], y[SIDE][SIDE], z[SIDE][SIDE];
     float normal_x[SIDE][SIDE], normal_y[SIDE][SIDE], normal_z[SIDE][SIDE];
@@ -68,7 +68,7 @@ static void load_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, int 
     ps_rgb reflected = ps_rgb_scale(ps_rgb_multiply(albedo, gbuffer->direct[pixel]), 1.0f / PS_PI);
     ps_rgb radiance = ps_rgb_add(gbuffer->emitted[pixel], reflected);
     around->there[row][column] = 1;
-    around->glass[row][column] = gbuffer->choice[pixel] == CHOSEN_BY_GLASS;
+    around->choice[row][column] = gbuffer->choice[pixel];
     around->object[row][column] = tile->object[lane];
     around->x[row][column] = tile->position_x[lane];
     around->y[row][column] = tile->position_y[lane];
@@ -150,16 +150,28 @@ static void compare_row(const struct neighbourhood *around, int row, int dx, int
     }
 }
 
+static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+
+/* Whether it sees glass, or one of its neighbours does. */
 static bool is_near_glass(const struct neighbourhood *around, int row, int column)
 {
-    return around->glass[row][column] || around->glass[row][column - 1] ||
-           around->glass[row][column + 1] || around->glass[row - 1][column] ||
-           around->glass[row + 1][column];
+    bool glass = around->choice[row][column] == CHOSEN_BY_GLASS;
+    for (int i = 0; i < 4; i++)
+        glass |=
+            around->choice[row + neighbours[i][1]][column + neighbours[i][0]] == CHOSEN_BY_GLASS;
+    return glass;
+}
+
+static enum edge_kind kind_of(const struct neighbourhood *around, int row, int column, bool differs)
+{
+    bool by_chance = around->choice[row][column] != CHOSEN_BY_NOTHING;
+    if (!around->there[row][column] || !(differs || by_chance))
+        return NO_EDGE;
+    return is_near_glass(around, row, column) ? GLASS_EDGE : EDGE;
 }
 
 void edges_find(const struct gbuffer *gbuffer, uint32_t tile, uint8_t edges[PS_TILE_PIXELS])
 {
-    static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     struct neighbourhood around;
     uint32_t left, top;
     gbuffer_pixel(gbuffer, tile, 0, &left, &top);
@@ -174,12 +186,8 @@ void edges_find(const struct gbuffer *gbuffer, uint32_t tile, uint8_t edges[PS_T
         int differs[PS_TILE_SIZE] = {0};
         for (int i = 0; i < 4; i++)
             compare_row(&around, row, neighbours[i][0], neighbours[i][1], differs);
-        for (int i = 0; i < PS_TILE_SIZE; i++) {
-            int lane = row * PS_TILE_SIZE + i;
-            bool by_chance = gbuffer->choice[(size_t)tile * PS_TILE_PIXELS + (size_t)lane];
-            bool is_edge = around.there[row + 1][i + 1] && (differs[i] || by_chance);
-            bool glass = is_near_glass(&around, row + 1, i + 1);
-            edges[lane] = (uint8_t)(!is_edge ? NO_EDGE : glass ? GLASS_EDGE : EDGE);
-        }
+        for (int i = 0; i < PS_TILE_SIZE; i++)
+            edges[row * PS_TILE_SIZE + i] =
+                (uint8_t)kind_of(&around, row + 1, i + 1, differs[i] != 0);
     }
 }

@@ -5,11 +5,11 @@
  * four neighbours in surface, in reflectance (by more than a quarter), or in emitted and direct
  * light (by more than a quarter and by more than three standard deviations of its noise), or where
  * its sample is stochastic (lens, gloss, glass). Edge pixels take `samples` camera samples instead,
- * and GLASS_SAMPLES times as many where they or a pixel beside them see glass: what it shows takes
- * many ways, and changes fast along its rim.
- * Each has its own surface, emission and direct light; its indirect light, which is expensive, is
- * interpolated from the pixels around (edge_interpolation.h) after fireflies.h. The offsets of the
- * samples in their pixel are the same in all pixels of a pass.
+ * and GLASS_SAMPLES times as many where they or a pixel beside them see glass: light comes through
+ * it on several ways, and what is seen changes fast along its rim. Each sample has its own surface,
+ * emission and direct light; its indirect light, which is expensive, is interpolated from the
+ * pixels around (edge_interpolation.h) after fireflies.h. The offsets of the samples in their pixel
+ * are the same in all pixels of one kind, of a pass.
  *
  * Pass 0 chooses the edge pixels of all passes, whether it is rendered here or not. If each pass
  * chose its own, a rare sample (a thin wire, a reflection in glass) would mark its pixel and be
@@ -25,9 +25,10 @@
 #include "direct/direct.h"
 #include "film/film.h"
 
-/* What pixels are to a pass. */
+/* What a pixel is to a pass. */
 enum edge_kind { NO_EDGE, EDGE, GLASS_EDGE };
-enum { GLASS_SAMPLES = 4 };
+
+enum { GLASS_SAMPLES = 4 }; /* of a GLASS_EDGE, for each of an EDGE */
 
 /* A pass whose G-buffer has all its light. */
 struct edge_pass {

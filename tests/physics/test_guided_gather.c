@@ -35,9 +35,9 @@ static double grain_by(const char *estimator)
     return grain;
 }
 
-/* Three rays are drawn by the cosine alone; from their noise follows that of `four`. Four of eight
- * samples are guided, whose noise is a fifth; as plain means of all eight they would have half of
- * the noise of the four. So are two of four samples. */
+/* Of four samples two are guided, of eight four, whose noise is a fifth of that of rays by the
+ * cosine: as plain means of all eight they would have half of the noise of `four` of those. That
+ * follows from the noise of three samples, which are all drawn by the cosine. */
 static void test_guided_rays_count_by_their_pdf(void **state)
 {
     (void)state;
