@@ -632,6 +632,44 @@ static void test_no_dark_rim_beside_a_caustic(void **state)
     assert_true(darkest > 0.05f);
 }
 
+#define STRIP 8 /* rows of a floor below a wall */
+
+/* Light of a caustic over pi, in the last rows of the strip. */
+static float light_at_border(int pixel)
+{
+    float across = 1.5f - fabsf((float)(pixel % WIDTH - CAUSTIC_X)) / 16.0f;
+    float down = 0.5f * (float)(pixel / WIDTH - (HEIGHT - 3));
+    return 6.4f * fminf(fmaxf(across, 0), 1) * fminf(fmaxf(down, 0), 1);
+}
+
+/* Fits to the rows above it fall below zero. That must not hide what is signal near by. */
+static void test_a_caustic_at_the_border_stays(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    struct random random = {1};
+    double error = 0, all = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        float noise = random_between(&random, -1, 1), noisy = 0.1f * (1 + 0.7f * noise);
+        bool wall = i / WIDTH < HEIGHT - STRIP;
+        float light = wall ? noisy : noisy + (1 + 0.1f * noise) * light_at_border(i);
+        set_vector(picture->light, i, (ps_vec3){light, light, light});
+        if (wall)
+            set_vector(picture->normal, i, (ps_vec3){0, 1, 0});
+    }
+    denoise(picture, CHOICE, 2);
+    for (int i = 0; i < PIXELS; i++) {
+        double truth = 0.1 + (double)light_at_border(i), off = (double)picture->light[1][i] - truth;
+        if (truth > 3.2) {
+            error += off * off;
+            all += truth * truth;
+        }
+    }
+    free(picture);
+    print_message("a caustic at the border: off by %.1f %%\n", 100 * sqrt(error / all));
+    assert_true(error < 0.15 * 0.15 * all);
+}
+
 /* --- pixels that say nothing --- */
 
 static void test_what_is_no_surface_stays(void **state)
@@ -758,6 +796,7 @@ int main(void)
         cmocka_unit_test(test_noise_of_thin_things_falls),
         cmocka_unit_test(test_light_of_thin_things_stays),
         cmocka_unit_test(test_no_dark_rim_beside_a_caustic),
+        cmocka_unit_test(test_a_caustic_at_the_border_stays),
         cmocka_unit_test(test_what_is_no_surface_stays),
         cmocka_unit_test(test_nothing_seen_at_all),
         cmocka_unit_test(test_images_together_are_as_alone),

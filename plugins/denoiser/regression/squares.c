@@ -39,6 +39,15 @@ static PS_INLINED float share_of(const struct row *row, float kind)
     return kind == row->own ? 1.0f : kind == (float)BROAD ? row->broad_share : 0.0f;
 }
 
+/* The weight of a pixel's squares, 1 / F_48^2, where light is `least` by the lowest of its fits. A
+ * fit below zero is wrong by that much at least, and F_48, which was led astray by the same bright
+ * light near by, may be next to nothing: so the light counts for so much. */
+static PS_INLINED float weight_of(float inverse_square, float least)
+{
+    float below = ps_max(-least, 0.0f);
+    return inverse_square / (1.0f + inverse_square * below * below);
+}
+
 PS_EVERY_ISA static void measure(const struct row row)
 {
     const struct denoised_image *image = row.image;
@@ -53,9 +62,11 @@ PS_EVERY_ISA static void measure(const struct row row)
     }
 #pragma omp simd
     for (size_t i = 0; i < image->width; i++) {
-        float weight = share_of(&row, kind[i]) * inverse_square[i];
-        float band = fine[0][i] + fine[1][i] + fine[2][i];
-        band -= coarse[0][i] + coarse[1][i] + coarse[2][i];
+        float narrow = fine[0][i] + fine[1][i] + fine[2][i];
+        float wide = coarse[0][i] + coarse[1][i] + coarse[2][i];
+        float band = narrow - wide;
+        float weight = weight_of(inverse_square[i], ps_min(narrow, wide));
+        weight *= share_of(&row, kind[i]);
         float chance = fine[NOISE][i] - coarse[NOISE][i];
         signal[i] = band * band * weight;
         noise[i] = noise_near[i] = chance * chance * weight;
@@ -131,8 +142,9 @@ static void measure_guesses_of_row(void *user, uint64_t y, uint32_t worker)
     struct row row = row_of(image, y);
     for (size_t x = 0; x < image->width; x++) {
         size_t i = row.first + x, at = regression_at(&image->guides, (int)x, (int)y);
-        float weight = share_of(&row, image->kind[i]) * image->inverse_square[i];
-        float newer = brightness_at(image->clamped, at) - brightness_at(image->sum, i);
+        float sum = brightness_at(image->sum, i);
+        float newer = brightness_at(image->clamped, at) - sum;
+        float weight = share_of(&row, image->kind[i]) * weight_of(image->inverse_square[i], sum);
         float first = image->clamped[NOISE][at];
         image->noise_near[i] = first * first * weight;
         image->newer_near[i] = newer * newer * weight;
