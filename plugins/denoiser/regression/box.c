@@ -1,5 +1,7 @@
 #include "box.h"
 
+#include <psplat/isa.h>
+
 /* That a worker sums at a time. */
 #define ROWS 8
 #define COLUMNS 64
@@ -22,15 +24,19 @@ static void sum_rows(void *user, uint64_t index, uint32_t worker)
     for (size_t x = 0; x < radius && x < width; x++)
         for (size_t i = 0; i < ROWS; i++)
             sums[i] += (double)from[i][x];
-    for (size_t x = 0; x < width; x++)
-        for (size_t i = 0; i < ROWS; i++) {
-            sums[i] += x + radius < width ? (double)from[i][x + radius] : 0.0;
-            sums[i] -= x > radius ? (double)from[i][x - radius - 1] : 0.0;
+    for (size_t x = 0; x < width; x++) {
+        if (x + radius < width)
+            for (size_t i = 0; i < ROWS; i++)
+                sums[i] += (double)from[i][x + radius];
+        if (x > radius)
+            for (size_t i = 0; i < ROWS; i++)
+                sums[i] -= (double)from[i][x - radius - 1];
+        for (size_t i = 0; i < ROWS; i++)
             to[i][x] = (float)sums[i];
-        }
+    }
 }
 
-static void sum_columns(void *user, uint64_t index, uint32_t worker)
+PS_EVERY_ISA static void sum_columns(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct regression_box *box = user;

@@ -255,12 +255,14 @@ static void blend_rest(const struct fit_job *job, struct block *block)
         }
 }
 
-static void store_run(const struct block *block, int row, int run, int c, int group, float *out)
+PS_EVERY_ISA static void store_row(const float *restrict weights, const float *restrict values,
+                                   int count, float *restrict out)
 {
-    const float *weights = block->weights[group][row][run], *values = block->values[c][row][run];
-    int count = smaller(block->columns - run * LANES, LANES);
-    for (int i = 0; i < count; i++)
-        out[i] = weights[i] > 0.0f ? values[i] / weights[i] : 0.0f;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        bool some = weights[i] > 0.0f;
+        out[i] = (some ? values[i] : 0.0f) / (some ? weights[i] : 1.0f);
+    }
 }
 
 static void store_block(const struct fit_job *job, const struct block *block)
@@ -269,9 +271,8 @@ static void store_block(const struct fit_job *job, const struct block *block)
         for (int c = job->first; c < job->end; c++) {
             size_t first = (size_t)(block->y + row) * job->light.on->width + (size_t)block->x;
             int group = c < job->light.on->narrow ? WITH_HALVES : WITHOUT_HALVES;
-            for (int run = 0; run * LANES < block->columns; run++)
-                store_run(block, row, run, c, group,
-                          job->fitted[c] + first + (size_t)(run * LANES));
+            store_row((const float *)block->weights[group][row],
+                      (const float *)block->values[c][row], block->columns, job->fitted[c] + first);
         }
 }
 
