@@ -35,9 +35,9 @@
  *
  * Bright samples of few pixels would leave speckles in narrow bands. So each pixel is limited to
  * twice the first fit, if the excess may be noise and few pixels near it are as bright: three,
- * where halves are known, or half of them. At the end the residual E - E' is fitted with the widest
- * bandwidth and added. It contains what was cut off, so no light is lost, and the bias of the fits
- * (twicing, Tukey 1977).
+ * where halves are known, or half of them and two thirds of those next to it. At the end the
+ * residual E - E' is fitted with the widest bandwidth and added. It contains what was cut off, so
+ * no light is lost, and the bias of the fits (twicing, Tukey 1977).
  *
  * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface
  * hardly reflects says nothing about the light, and is taken for the mean of its other channels.

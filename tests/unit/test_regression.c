@@ -632,6 +632,33 @@ static void test_no_dark_rim_beside_a_caustic(void **state)
     assert_true(darkest > 0.05f);
 }
 
+/* A first fit says nothing of a caustic of six pixels, and it is no outlier all the same. */
+static void test_a_small_caustic_stays(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    struct random random = {1};
+    double error = 0, all = 0;
+    float truth[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        float x = (float)(i % WIDTH - CAUSTIC_X), y = (float)(i / WIDTH - HEIGHT / 2);
+        float caustic = 3.2f * fminf(fmaxf(2 - 0.5f * hypotf(x, y), 0), 1);
+        float noise = random_between(&random, -1, 1);
+        float light = 0.1f * (1 + 0.7f * noise) + caustic * (1 + 0.1f * noise);
+        truth[i] = caustic + 0.1f;
+        set_vector(picture->light, i, (ps_vec3){light, light, light});
+    }
+    denoise(picture, CHOICE, 2);
+    for (int i = 0; i < PIXELS; i++)
+        if (truth[i] > 1.6f) {
+            error += pow((double)(picture->light[1][i] - truth[i]), 2);
+            all += pow((double)truth[i], 2);
+        }
+    free(picture);
+    print_message("a small caustic: off by %.1f %%\n", 100 * sqrt(error / all));
+    assert_true(error < 0.5 * 0.5 * all);
+}
+
 #define STRIP 8 /* rows of a floor below a wall */
 
 /* Light of a caustic over pi, in the last rows of the strip. */
@@ -796,6 +823,7 @@ int main(void)
         cmocka_unit_test(test_noise_of_thin_things_falls),
         cmocka_unit_test(test_light_of_thin_things_stays),
         cmocka_unit_test(test_no_dark_rim_beside_a_caustic),
+        cmocka_unit_test(test_a_small_caustic_stays),
         cmocka_unit_test(test_a_caustic_at_the_border_stays),
         cmocka_unit_test(test_what_is_no_surface_stays),
         cmocka_unit_test(test_nothing_seen_at_all),

@@ -7,6 +7,7 @@
 #define OUTLIER_NOISE 1.5f /* times the largest noise within NOISY: outliers may be so bright */
 #define NOISY 8            /* pixels to each side */
 #define NEAR 3             /* pixels to each side are near by */
+#define NEXT 1             /* and so many are next to it */
 #define FEW 4 /* pixels near by, with itself, that are half as bright as an outlier, at most */
 #define FEW_IN_GLOSS 6 /* the same in gloss, where chance has more to say */
 #define LEAST_USUAL 5  /* pixels near by, with itself, that can tell what is usual */
@@ -135,18 +136,19 @@ static float largest_noise_near(const struct denoised_image *image, size_t x, si
     return most;
 }
 
-/* Of the pixels near one, itself included: how many are half as bright as it, how many show its
+/* Of the pixels around one, itself included: how many are half as bright as it, how many show its
  * surface, and how many do both. */
-struct near {
+struct around {
     int bright, own, own_bright;
 };
 
-static struct near look_near(const struct denoised_image *image, size_t x, size_t y, float bright)
+static struct around look_around(const struct denoised_image *image, size_t x, size_t y,
+                                 float bright, int reach)
 {
-    struct near near = {0, 0, 0};
+    struct around near = {0, 0, 0};
     size_t middle = regression_at(&image->guides, (int)x, (int)y);
-    for (int dy = -NEAR; dy <= NEAR; dy++)
-        for (int dx = -NEAR; dx <= NEAR; dx++) {
+    for (int dy = -reach; dy <= reach; dy++)
+        for (int dx = -reach; dx <= reach; dx++) {
             size_t at = regression_at(&image->guides, (int)x + dx, (int)y + dy);
             bool is_bright = brightness_at(image->light, at) > 0.5f * bright;
             bool is_own = regression_is_like(&image->guides, middle, at);
@@ -161,14 +163,18 @@ static struct near look_near(const struct denoised_image *image, size_t x, size_
 static bool is_alone(const struct denoised_image *image, size_t x, size_t y, float bright)
 {
     int few = image->kind[y * image->width + x] == (float)GLOSSY ? FEW_IN_GLOSS : FEW;
-    return look_near(image, x, y, bright).bright <= few;
+    return look_around(image, x, y, bright, NEAR).bright <= few;
 }
 
-/* Whether most pixels of its surface near by are half as bright. Then it is the first fit that is
- * wrong: beside a caustic it is too low. */
+/* Whether most pixels of its surface near by are half as bright, or two thirds of the others next
+ * to it, as at the border of a caustic. Then it is the first fit that is wrong: there it is too
+ * low. */
 static bool is_usual(const struct denoised_image *image, size_t x, size_t y, float bright)
 {
-    struct near near = look_near(image, x, y, bright);
+    struct around next = look_around(image, x, y, bright, NEXT);
+    if (next.own >= LEAST_USUAL && 3 * (next.own_bright - 1) > 2 * (next.own - 1))
+        return true;
+    struct around near = look_around(image, x, y, bright, NEAR);
     return near.own >= LEAST_USUAL && 2 * near.own_bright > near.own;
 }
 
