@@ -131,7 +131,8 @@ typedef struct ps_filter_vtable {
  * had by for_each_picture_tile and tile_surfaces. */
 #define PS_ESTIMATOR_CROPS 4u
 /* Since 1.8: it splats onto the picture in every scene, so that there has to be memory for what
- * splats light. */
+ * splats light. What others splat is taken for caustics, and is kept from denoisers in pictures of
+ * one pass. */
 #define PS_ESTIMATOR_SPLATS 8u
 #define PS_ESTIMATOR_VARIANCE 16u /* since 1.17: it sets ps_tile.variance */
 

@@ -178,15 +178,18 @@ static void draw_light(const struct render *render, float scale, double exposure
 {
     const struct gbuffer *gbuffer = &render->gbuffer;
     for (size_t i = 0; i < (size_t)gbuffer->tile_count * PS_TILE_PIXELS; i++) {
-        uint32_t x, y, lane = i % PS_TILE_PIXELS;
-        const ps_tile *tile = &gbuffer->tiles[i / PS_TILE_PIXELS];
-        if (!(tile->weight[lane] > 0.0f) ||
-            !gbuffer_pixel(gbuffer, (uint32_t)(i / PS_TILE_PIXELS), lane, &x, &y))
+        uint32_t x, y, index = (uint32_t)(i / PS_TILE_PIXELS), lane = i % PS_TILE_PIXELS;
+        const ps_tile *tile = &gbuffer->tiles[index];
+        if (!(tile->weight[lane] > 0.0f) || !gbuffer_pixel(gbuffer, index, lane, &x, &y))
             continue;
+        float light[3] = {tile->irradiance_r[lane], tile->irradiance_g[lane],
+                          tile->irradiance_b[lane]};
+        for (int c = 0; c < 3 && gbuffer->splatted; c++)
+            light[c] += gbuffer_splatted(gbuffer, index, c)[lane];
         double under = tonemap_linear((double)canvas_get(canvas, x, y).r / 255.0);
-        float r = scale * tile->irradiance_r[lane] * tile->albedo_r[lane] + (float)under;
-        float g = scale * tile->irradiance_g[lane] * tile->albedo_g[lane] + (float)under;
-        float b = scale * tile->irradiance_b[lane] * tile->albedo_b[lane] + (float)under;
+        float r = scale * light[0] * tile->albedo_r[lane] + (float)under;
+        float g = scale * light[1] * tile->albedo_g[lane] + (float)under;
+        float b = scale * light[2] * tile->albedo_b[lane] + (float)under;
         uint8_t rgb[3];
         tonemap_planes(&r, &g, &b, 1, exposure, TONE_FILMIC, rgb);
         canvas_set(canvas, (long)x, (long)y, (struct colour){rgb[0], rgb[1], rgb[2]});

@@ -38,7 +38,10 @@ enum film_plane {
     FILM_HARD_R,
     FILM_HARD_G,
     FILM_HARD_B,
-    FILM_GLOSS,    /* share of the albedo that is not diffuse */
+    FILM_GLOSS, /* share of the albedo that is not diffuse */
+    FILM_SPLATTED_R,
+    FILM_SPLATTED_G,
+    FILM_SPLATTED_B, /* what of FILM_COLOR was splatted, where that is known apart */
     FILM_VARIANCE, /* sum over passes of that of the irradiance, as far as the estimator knows it */
     FILM_PLANES
 };
@@ -75,7 +78,7 @@ ps_result film_add_reflected(struct film *film, bool hard_apart, struct error *e
 /* And half of that: of each pass, or of the passes (the odd ones). */
 ps_result film_add_half_of_reflected(struct film *film, bool of_pass, struct error *error);
 
-/* Lets it keep a plane that it lacks: FILM_GLOSS, or FILM_VARIANCE. */
+/* Lets it keep a plane that it lacks: FILM_GLOSS, FILM_SPLATTED_R to _B, or FILM_VARIANCE. */
 ps_result film_add_plane(struct film *film, enum film_plane plane, struct error *error);
 
 /* Empties the film for a pass, and makes the planes anew that were taken out of it. */

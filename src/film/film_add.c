@@ -16,6 +16,7 @@ struct tile_row {
     const ps_tile *tile;
     const ps_rgb *direct, *emitted;   /* of the row's pixels */
     const ps_rgb *hard;               /* likewise; NULL: none is denoised apart */
+    const float *splatted[3];         /* likewise; NULL: the tile's irradiance has it */
     const struct glossy_tile *glossy; /* of the tile */
     size_t lane, pixel;               /* its first, in the tile and in the film */
     size_t count;
@@ -100,6 +101,7 @@ static void add_emitted(struct film *film, const struct tile_row *row)
 struct row_channel {
     const float *albedo, *throughput, *irradiance; /* indirect */
     const float *radiance;                         /* indirect; NULL: none */
+    const float *splatted;                         /* indirect irradiance; NULL: none is apart */
     const float *glossy;                           /* reflectance, of the tile */
     float direct[PS_TILE_SIZE];                    /* irradiance */
     float hard[PS_TILE_SIZE];                      /* what of it is denoised apart */
@@ -130,6 +132,7 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
                           const struct row_channel *from)
 {
     float albedo[PS_TILE_SIZE], direct[PS_TILE_SIZE], indirect[PS_TILE_SIZE];
+    float splatted[PS_TILE_SIZE];
     for (size_t i = 0; i < row->count; i++) {
         albedo[i] = from->albedo[i] * from->throughput[i];
         float reflectance = albedo[i] * (1.0f / PS_PI);
@@ -138,6 +141,11 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
     }
     for (size_t i = 0; from->radiance && i < row->count; i++)
         indirect[i] += from->throughput[i] * from->radiance[i];
+    for (size_t i = 0; i < row->count; i++) {
+        splatted[i] = from->splatted ? albedo[i] * (1.0f / PS_PI) * from->splatted[i] : 0.0f;
+        indirect[i] += splatted[i];
+    }
+    add_seen(film, FILM_SPLATTED_R + channel, row, splatted);
     add_seen(film, FILM_DIRECT_R + channel, row, direct);
     add_denoised(film, row, channel, from, albedo);
     add_seen(film, FILM_COLOR_R + channel, row, indirect);
@@ -165,16 +173,19 @@ static void add_light(struct film *film, const struct tile_row *row)
          .throughput = tile->throughput_r + lane,
          .irradiance = tile->irradiance_r + lane,
          .radiance = tile->radiance_r ? tile->radiance_r + lane : NULL,
+         .splatted = row->splatted[0],
          .glossy = glossy->reflectance_r},
         {.albedo = tile->albedo_g + lane,
          .throughput = tile->throughput_g + lane,
          .irradiance = tile->irradiance_g + lane,
          .radiance = tile->radiance_g ? tile->radiance_g + lane : NULL,
+         .splatted = row->splatted[1],
          .glossy = glossy->reflectance_g},
         {.albedo = tile->albedo_b + lane,
          .throughput = tile->throughput_b + lane,
          .irradiance = tile->irradiance_b + lane,
          .radiance = tile->radiance_b ? tile->radiance_b + lane : NULL,
+         .splatted = row->splatted[2],
          .glossy = glossy->reflectance_b},
     };
     for (size_t i = 0; i < row->count; i++) {
@@ -233,7 +244,7 @@ static struct tile_row row_of(const struct film *film, const struct gbuffer *gbu
     size_t first = (size_t)tile * PS_TILE_PIXELS + lane;
     bool half = film->is_half && gbuffer->direct_half;
     const ps_rgb *hard = half ? gbuffer->hard_half : gbuffer->hard;
-    return (struct tile_row){
+    struct tile_row row = {
         .tile = &gbuffer->tiles[tile],
         .direct = half ? &gbuffer->direct_half[first] : &gbuffer->direct[first],
         .hard = hard ? &hard[first] : NULL,
@@ -243,6 +254,9 @@ static struct tile_row row_of(const struct film *film, const struct gbuffer *gbu
         .pixel = pixel,
         .count = count,
     };
+    for (int c = 0; c < 3 && gbuffer->splatted; c++)
+        row.splatted[c] = gbuffer_splatted(gbuffer, tile, c) + lane;
+    return row;
 }
 
 static size_t at_most_a_tile(size_t pixels)

@@ -165,11 +165,19 @@ ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error)
     return check(gbuffer->radiance, count * sizeof *gbuffer->radiance, "indirect radiance", error);
 }
 
+ps_result gbuffer_prepare_splatted(struct gbuffer *gbuffer, struct error *error)
+{
+    size_t count = 3 * lanes_of(gbuffer);
+    gbuffer->splatted = old_or_new(gbuffer->splatted, count, sizeof *gbuffer->splatted);
+    return check(gbuffer->splatted, count * sizeof *gbuffer->splatted, "splats", error);
+}
+
 void gbuffer_release(struct gbuffer *gbuffer)
 {
     free(gbuffer->occlusion);
     free(gbuffer->direct_scratch);
     free(gbuffer->radiance);
+    free(gbuffer->splatted);
     free(gbuffer->tiles);
     free(gbuffer->direct);
     free(gbuffer->direct_half);
@@ -195,6 +203,8 @@ size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts par
         lane += sizeof *layout->geometric_normals;
     if (parts.radiance)
         lane += 3 * sizeof *layout->radiance;
+    if (parts.splatted)
+        lane += 3 * sizeof *layout->splatted;
     size_t glossy = parts.glossy ? sizeof *layout->glossy : 0;
     return layout->tile_count * (sizeof(ps_tile) + glossy + PS_TILE_PIXELS * lane);
 }
@@ -208,6 +218,7 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer)
                                            .glossy = gbuffer->glossy != NULL,
                                            .geometric_normals = gbuffer->geometric_normals != NULL,
                                            .radiance = gbuffer->radiance != NULL,
+                                           .splatted = gbuffer->splatted != NULL,
                                        });
 }
 
@@ -351,12 +362,19 @@ static void clear_radiance(struct gbuffer *gbuffer, uint32_t index)
     memset(tile->radiance_r, 0, 3 * PS_TILE_PIXELS * sizeof(float));
 }
 
+static void clear_splatted(struct gbuffer *gbuffer, uint32_t index)
+{
+    if (gbuffer->splatted)
+        memset(gbuffer_splatted(gbuffer, index, 0), 0, 3 * PS_TILE_PIXELS * sizeof(float));
+}
+
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
 {
     assert(index < gbuffer->tile_count);
     ps_tile *tile = &gbuffer->tiles[index];
     memset(tile, 0, sizeof *tile);
     clear_radiance(gbuffer, index);
+    clear_splatted(gbuffer, index);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
     memset(&gbuffer->choice[(size_t)index * PS_TILE_PIXELS], CHOSEN_BY_NOTHING, PS_TILE_PIXELS);
     if (gbuffer->glossy) {
@@ -387,6 +405,7 @@ void gbuffer_clear_indirect(struct gbuffer *gbuffer)
         memset(tile->weight, 0, sizeof tile->weight);
         memset(tile->variance, 0, sizeof tile->variance);
         clear_radiance(gbuffer, i);
+        clear_splatted(gbuffer, i);
     }
 }
 

@@ -54,6 +54,9 @@ struct gbuffer {
     ps_vec3 *geometric_normals; /* where shading normals are smoothed or bent */
     struct glossy_tile *glossy; /* one for each tile */
     float *radiance;            /* ps_tile.radiance_r, _g and _b point into it; W/(m^2 sr) */
+    /* Indirect irradiance of splats, where the tiles' irradiance is without it: red of a tile's
+     * lanes, green and blue, W/m^2. */
+    float *splatted;
 };
 
 /* Tiles of a picture of that size, and no memory for them. */
@@ -81,15 +84,23 @@ ps_result gbuffer_prepare_hard(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_geometric_normals(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
+ps_result gbuffer_prepare_splatted(struct gbuffer *gbuffer, struct error *error);
 
 /* What a buffer has besides tiles, direct and emitted light, and `choice`. */
 struct gbuffer_parts {
-    bool discontinuity_buffer, direct_half, hard, glossy, geometric_normals, radiance;
+    bool discontinuity_buffer, direct_half, hard, glossy, geometric_normals, radiance, splatted;
 };
 
 /* Bytes that the tiles of a layout take with such parts, and that the buffer takes. */
 size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts parts);
 size_t gbuffer_bytes(const struct gbuffer *gbuffer);
+
+/* A channel of what splats gave to a tile's lanes; NULL where the tile itself has it. */
+static inline float *gbuffer_splatted(const struct gbuffer *gbuffer, uint32_t tile, int channel)
+{
+    size_t at = 3 * (size_t)tile + (size_t)channel;
+    return gbuffer->splatted ? gbuffer->splatted + at * PS_TILE_PIXELS : NULL;
+}
 
 /* The number of a tile in the picture. */
 static inline uint32_t gbuffer_number(const struct gbuffer *gbuffer, uint32_t tile)

@@ -35,6 +35,9 @@ static const char *const plane_names[FILM_PLANES] = {
     [FILM_HARD_G] = "hard.G",
     [FILM_HARD_B] = "hard.B",
     [FILM_GLOSS] = "gloss",
+    [FILM_SPLATTED_R] = "splatted.R",
+    [FILM_SPLATTED_G] = "splatted.G",
+    [FILM_SPLATTED_B] = "splatted.B",
     [FILM_VARIANCE] = "variance",
 };
 

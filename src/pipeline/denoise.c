@@ -261,6 +261,35 @@ static size_t add_direct_parts(const struct render *render, struct part *parts, 
     return count;
 }
 
+/* What was splatted is smooth already, and what noise it has is not independent from pixel to
+ * pixel, as denoisers suppose (plugins/denoiser/regression.c). In one pass it is kept from them;
+ * several tell the noise of both. The normalization may have scaled the light. */
+static bool keeps_splats_apart(const struct film *film)
+{
+    return film->passes == 1 && film->planes[FILM_SPLATTED_R];
+}
+
+static void take_splats_out(const struct film *film, struct rgb_planes light)
+{
+    float *const planes[3] = {light.r, light.g, light.b};
+    for (int c = 0; c < 3 && keeps_splats_apart(film); c++) {
+        float *splatted = film->planes[FILM_SPLATTED_R + c];
+        const float *all = film->planes[FILM_COLOR_R + c];
+        for (size_t i = 0; i < film->width * film->height; i++) {
+            splatted[i] *= all[i] > 0.0f ? planes[c][i] / all[i] : 0.0f;
+            planes[c][i] = fmaxf(planes[c][i] - splatted[i], 0.0f);
+        }
+    }
+}
+
+static void put_splats_back(const struct film *film, struct rgb_planes light)
+{
+    float *const planes[3] = {light.r, light.g, light.b};
+    for (int c = 0; c < 3 && keeps_splats_apart(film); c++)
+        for (size_t i = 0; i < film->width * film->height; i++)
+            planes[c][i] += film->planes[FILM_SPLATTED_R + c][i];
+}
+
 ps_result denoise_film(struct render *render, struct rgb_planes indirect,
                        const struct halves *halves, float *estimate, struct error *error)
 {
@@ -280,8 +309,10 @@ ps_result denoise_film(struct render *render, struct rgb_planes indirect,
     if (!room)
         return leave_out(render, PS_DENOISER, error_memory(error, 6 * plane, "the denoiser"),
                          "is not denoised", error);
+    take_splats_out(&render->film, indirect);
     for (size_t i = 0; i < count && result == PS_OK; i += at_once)
         result = denoise_some(render, parts + i, at_once, room, error);
+    put_splats_back(&render->film, indirect);
     free(room);
     return result;
 }

@@ -30,7 +30,7 @@ static size_t count_film(const struct planes *planes)
     size_t of_surfaces = FILM_VISIBLE - FILM_ALBEDO_R + 1, of_odd = 5; /* light, weight, coverage */
     size_t reflected = planes->reflected ? 3 + (planes->reflected_hard ? 3 : 0) : 0;
     return FILM_ON_REQUEST - (planes->surfaces ? 0 : of_surfaces) + (planes->gloss ? 1 : 0) +
-           (planes->variance ? 1 : 0) + (planes->odd ? of_odd : 0) +
+           (planes->variance ? 1 : 0) + (planes->splatted ? 3 : 0) + (planes->odd ? of_odd : 0) +
            reflected * (1 + (planes->halves_of_pass ? 1 : 0) + (planes->halves_of_passes ? 1 : 0));
 }
 
@@ -68,9 +68,9 @@ static double gbuffer_part(const struct gbuffer *layout, const struct planes *pl
     struct interleaved interleaved = interleaved_layout(layout, 1);
     interleaved.has_geometric_normals = planes->geometric;
     size_t bytes = gbuffer_bytes_with(
-        layout,
-        (struct gbuffer_parts){planes->discontinuity_buffer, planes->direct_half, planes->hard,
-                               planes->gloss, planes->geometric, planes->radiance});
+        layout, (struct gbuffer_parts){planes->discontinuity_buffer, planes->direct_half,
+                                       planes->hard, planes->gloss, planes->geometric,
+                                       planes->radiance, planes->caustics});
     if (planes->edges)
         bytes += layout->tile_count * PS_TILE_PIXELS;
     if (planes->splats || planes->caustics)

@@ -171,8 +171,9 @@ uint64_t mend_plane(float *plane, size_t n)
     return bad;
 }
 
-static uint64_t mend_tile(ps_tile *tile)
+static uint64_t mend_tile(struct gbuffer *gbuffer, uint32_t index)
 {
+    ps_tile *tile = &gbuffer->tiles[index];
     uint64_t bad = mend_plane(tile->irradiance_r, PS_TILE_PIXELS) +
                    mend_plane(tile->irradiance_g, PS_TILE_PIXELS) +
                    mend_plane(tile->irradiance_b, PS_TILE_PIXELS) +
@@ -182,6 +183,8 @@ static uint64_t mend_tile(ps_tile *tile)
         bad += mend_plane(tile->radiance_r, PS_TILE_PIXELS) +
                mend_plane(tile->radiance_g, PS_TILE_PIXELS) +
                mend_plane(tile->radiance_b, PS_TILE_PIXELS);
+    if (gbuffer->splatted)
+        bad += mend_plane(gbuffer_splatted(gbuffer, index, 0), 3 * PS_TILE_PIXELS);
     return bad;
 }
 
@@ -199,7 +202,7 @@ ps_result render_estimate(struct render *render, struct error *error)
     splats_drop_points(render);
     result = render_judge(render, PS_ESTIMATOR, result, error);
     for (uint32_t i = 0; i < render->gbuffer.tile_count; i++)
-        render->refused.pixels[0] += mend_tile(&render->gbuffer.tiles[i]);
+        render->refused.pixels[0] += mend_tile(&render->gbuffer, i);
     statistics_add_seconds(render->statistics, "estimate", clock_seconds() - start);
     return result == PS_OK && host_is_cancelled(render) ? PS_CANCELLED : result;
 }

@@ -1,10 +1,14 @@
 #include "pipeline/planes.h"
 
+static bool may_denoise(const struct render_settings *settings, bool keeps_film)
+{
+    return keeps_film || settings->strategies[PS_DENOISER].type->table.denoiser.filter;
+}
+
 /* Those of surfaces are half of the film's memory, and of the time that adding to it takes. */
 static bool wants_surfaces(const struct render_settings *settings, bool keeps_film)
 {
-    return keeps_film || !settings->picture_alone ||
-           settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
+    return may_denoise(settings, keeps_film) || !settings->picture_alone;
 }
 
 /* Where a denoiser may smooth the direct light: it has noise, which halves of it tell, and nothing
@@ -26,10 +30,11 @@ static void add_reflected(struct planes *planes, const struct render_settings *s
 }
 
 static void add_of_scene(struct planes *planes, const struct render_settings *settings,
-                         const struct scene *scene, uint32_t denoiser)
+                         const struct scene *scene, uint32_t denoiser, bool keeps_film)
 {
     planes->gloss = scene->microfacets && planes->surfaces;
     planes->caustics = scene->microfacets && !planes->splats;
+    planes->splatted = planes->caustics && may_denoise(settings, keeps_film);
     planes->geometric = (planes->splats || planes->caustics) && scene_has_shading_normals(scene);
     planes->discontinuity_buffer = settings->discontinuity_buffer && scene->has_area_lights;
     /* Halves of the direct light tell its noise from an edge, of which hard shadows have some. */
@@ -57,7 +62,7 @@ struct planes planes_wanted(const struct render_settings *settings, const struct
         .variance = (estimator & PS_ESTIMATOR_VARIANCE) && (denoiser & PS_DENOISER_VARIANCE),
     };
     if (scene)
-        add_of_scene(&planes, settings, scene, denoiser);
+        add_of_scene(&planes, settings, scene, denoiser, keeps_film);
     return planes;
 }
 

@@ -19,7 +19,7 @@ struct planes {
     bool discontinuity_buffer; /* G-buffer: room for it */
     bool edges;                /* pixels that take several samples */
     bool splats;               /* what pixels get by splats, with short-range light */
-    bool caustics;             /* what they get by splats of caustics alone */
+    bool caustics;             /* what they get by splats of caustics alone; G-buffer: apart */
     bool geometric;   /* G-buffer: geometric normals beside smoothed or bent ones, for splats */
     bool direct_half; /* G-buffer: direct light by half of the shadow rays */
     bool hard;        /* G-buffer: light that casts hard shadows */
@@ -27,6 +27,7 @@ struct planes {
     bool ids;         /* film: objects and materials */
     bool odd;         /* film: indirect light of the odd passes */
     bool variance;    /* film: variance of the irradiance */
+    bool splatted;    /* film: light of these splats apart, too */
     /* Film: direct light that is reflected, with that of hard shadows apart, and its halves: of
      * each pass, and of the passes (the odd ones). */
     bool reflected, reflected_hard, halves_of_pass, halves_of_passes;

@@ -81,6 +81,8 @@ static ps_result add_to_gbuffer(struct render *render, const struct planes *plan
         result = gbuffer_prepare_hard(gbuffer, error);
     if (result == PS_OK && planes->radiance)
         result = gbuffer_prepare_radiance(gbuffer, error);
+    if (result == PS_OK && planes->caustics)
+        result = gbuffer_prepare_splatted(gbuffer, error);
     return result;
 }
 
@@ -93,6 +95,8 @@ static ps_result add_to_film(struct render *render, const struct planes *planes,
         result = film_add_plane(film, FILM_GLOSS, error);
     if (result == PS_OK && planes->variance)
         result = film_add_plane(film, FILM_VARIANCE, error);
+    for (int c = 0; c < 3 && result == PS_OK && planes->splatted; c++)
+        result = film_add_plane(film, FILM_SPLATTED_R + c, error);
     if (result == PS_OK && planes->ids)
         result = film_add_ids(film, error);
     if (result == PS_OK && planes->odd)

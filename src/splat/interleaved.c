@@ -303,12 +303,11 @@ static float border_share(int offset, int reach, uint32_t interleave)
 }
 
 /* Where all lies on one plane: each window has the weight of all subsets, each once. */
-static void join_flat(const struct apron *apron, uint32_t interleave, ps_tile *tile)
+static void join_flat(const struct apron *apron, uint32_t interleave, float *const to[4])
 {
     float sums[PS_TILE_SIZE][PS_TILE_SIZE];
     const float(*from[])[APRON_SIDE] = {apron->irradiance_r, apron->irradiance_g,
                                         apron->irradiance_b, apron->weight};
-    float *const to[] = {tile->irradiance_r, tile->irradiance_g, tile->irradiance_b, tile->weight};
     int reach = (int)interleave / 2;
     float scale = 1.0f / (float)(interleave * interleave);
     for (size_t plane = 0; plane < sizeof from / sizeof *from; plane++) {
@@ -318,7 +317,7 @@ static void join_flat(const struct apron *apron, uint32_t interleave, ps_tile *t
     }
 }
 
-static void join_row(const struct apron *apron, uint32_t interleave, int row, ps_tile *tile)
+static void join_row(const struct apron *apron, uint32_t interleave, int row, float *const to[4])
 {
     struct row_sums sums = {0};
     int reach = (int)interleave / 2;
@@ -330,10 +329,10 @@ static void join_row(const struct apron *apron, uint32_t interleave, int row, ps
     for (int i = 0; i < PS_TILE_SIZE; i++) {
         int lane = row * PS_TILE_SIZE + i;
         float scale = sums.total[i] > 0.0f ? 1.0f / sums.total[i] : 0.0f;
-        tile->irradiance_r[lane] += scale * sums.r[i];
-        tile->irradiance_g[lane] += scale * sums.g[i];
-        tile->irradiance_b[lane] += scale * sums.b[i];
-        tile->weight[lane] += scale * sums.weight[i];
+        to[0][lane] += scale * sums.r[i];
+        to[1][lane] += scale * sums.g[i];
+        to[2][lane] += scale * sums.b[i];
+        to[3][lane] += scale * sums.weight[i];
     }
 }
 
@@ -348,14 +347,22 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
     int reach = (int)interleaved->interleave / 2;
     if (gbuffer_sees_nothing(&gbuffer->tiles[index]))
         return;
+    ps_tile *tile = &gbuffer->tiles[index];
+    bool apart = gbuffer->splatted != NULL;
+    float *const to[4] = {
+        apart ? gbuffer_splatted(gbuffer, (uint32_t)index, 0) : tile->irradiance_r,
+        apart ? gbuffer_splatted(gbuffer, (uint32_t)index, 1) : tile->irradiance_g,
+        apart ? gbuffer_splatted(gbuffer, (uint32_t)index, 2) : tile->irradiance_b,
+        tile->weight,
+    };
     struct apron apron = {0};
     load_apron(interleaved, left, top, reach, &apron);
     if (reach > 0 && apron_is_flat(&apron.at, reach)) {
-        join_flat(&apron, interleaved->interleave, &gbuffer->tiles[index]);
+        join_flat(&apron, interleaved->interleave, to);
         return;
     }
     for (int row = 0; row < PS_TILE_SIZE; row++)
-        join_row(&apron, interleaved->interleave, row, &gbuffer->tiles[index]);
+        join_row(&apron, interleaved->interleave, row, to);
 }
 
 void interleaved_join(const struct interleaved *interleaved, struct gbuffer *gbuffer,

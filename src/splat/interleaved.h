@@ -74,9 +74,10 @@ void interleaved_begin_tile(struct interleaved_tile *tile);
 void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbuffer,
                       struct workers *workers);
 
-/* Gives each pixel of the G-buffer the mean of what the subsets learned around it: over a window of
- * n pixels across and down, or n + 1 whose border weighs half where n is even, so that each subset
- * weighs the same inside of a surface; pixels off the same plane do not count. */
+/* Gives each pixel of the G-buffer the mean of what the subsets learned around it, in `splatted`
+ * where that is prepared: over a window of n pixels across and down, or n + 1 whose border weighs
+ * half where n is even, so that each subset weighs the same inside of a surface; pixels off the
+ * same plane do not count. */
 void interleaved_join(const struct interleaved *interleaved, struct gbuffer *gbuffer,
                       struct workers *workers);
 

@@ -13,9 +13,10 @@
 /* How closely what a neighbour sees matches what a sample sees. */
 enum { NO_SURFACE, ANOTHER_OBJECT, SAME_OBJECT, SAME_SURFACE };
 
-static void set_neighbour(const ps_tile *tile, uint32_t lane, struct edge_neighbours *neighbours,
-                          int i)
+static void set_neighbour(const struct gbuffer *gbuffer, uint32_t index, uint32_t lane,
+                          struct edge_neighbours *neighbours, int i)
 {
+    const ps_tile *tile = &gbuffer->tiles[index];
     neighbours->object[i] = tile->object[lane];
     neighbours->x[i] = tile->position_x[lane];
     neighbours->y[i] = tile->position_y[lane];
@@ -27,6 +28,8 @@ static void set_neighbour(const ps_tile *tile, uint32_t lane, struct edge_neighb
     neighbours->g[i] = tile->irradiance_g[lane];
     neighbours->b[i] = tile->irradiance_b[lane];
     neighbours->weight[i] = tile->weight[lane];
+    for (int c = 0; c < 3 && gbuffer->splatted; c++)
+        neighbours->splatted[c][i] = gbuffer_splatted(gbuffer, index, c)[lane];
     if (!tile->radiance_r)
         return;
     neighbours->radiance_r[i] = tile->radiance_r[lane];
@@ -45,7 +48,7 @@ void edge_neighbours_find(const struct gbuffer *gbuffer, uint32_t x, uint32_t y,
         for (int dx = -RADIUS; dx <= RADIUS; dx++) {
             uint32_t tile, lane;
             if (gbuffer_find(gbuffer, (int64_t)x + dx, (int64_t)y + dy, &tile, &lane))
-                set_neighbour(&gbuffer->tiles[tile], lane, neighbours, next++);
+                set_neighbour(gbuffer, tile, lane, neighbours, next++);
         }
 }
 
@@ -107,15 +110,19 @@ static float weighted_mean(const float *weights, const float *values, int n)
 }
 
 /* Returns how many of the neighbours see the sample's surface. */
-static float interpolate_from_neighbours(const struct edge_neighbours *neighbours, ps_tile *tile,
-                                         uint32_t lane)
+static float interpolate_from_neighbours(const struct edge_neighbours *neighbours,
+                                         const struct gbuffer *samples, uint32_t lane)
 {
+    ps_tile *tile = samples->tiles;
     float weights[EDGE_NEIGHBOURS];
     float count = find_weights(neighbours, tile, lane, weights);
     tile->irradiance_r[lane] = weighted_mean(weights, neighbours->r, EDGE_NEIGHBOURS);
     tile->irradiance_g[lane] = weighted_mean(weights, neighbours->g, EDGE_NEIGHBOURS);
     tile->irradiance_b[lane] = weighted_mean(weights, neighbours->b, EDGE_NEIGHBOURS);
     tile->weight[lane] = weighted_mean(weights, neighbours->weight, EDGE_NEIGHBOURS);
+    for (int c = 0; c < 3 && samples->splatted; c++)
+        gbuffer_splatted(samples, 0, c)[lane] =
+            weighted_mean(weights, neighbours->splatted[c], EDGE_NEIGHBOURS);
     if (!tile->radiance_r)
         return count;
     tile->radiance_r[lane] = weighted_mean(weights, neighbours->radiance_r, EDGE_NEIGHBOURS);
@@ -125,8 +132,11 @@ static float interpolate_from_neighbours(const struct edge_neighbours *neighbour
 }
 
 /* From the lanes of a tile that see the sample's surface, if they are more than `count`. */
-static void interpolate_from_tile(const ps_tile *from, float count, ps_tile *tile, uint32_t lane)
+static void interpolate_from_tile(const struct gbuffer *gbuffer, uint32_t index, float count,
+                                  const struct gbuffer *samples, uint32_t lane)
 {
+    const ps_tile *from = &gbuffer->tiles[index];
+    ps_tile *tile = samples->tiles;
     float alike[PS_TILE_PIXELS], weights[PS_TILE_PIXELS];
     ps_vec3 position = ps_tile_position(tile, lane);
     float found =
@@ -148,15 +158,19 @@ static void interpolate_from_tile(const ps_tile *from, float count, ps_tile *til
     tile->irradiance_r[lane] = weighted_mean(weights, from->irradiance_r, PS_TILE_PIXELS);
     tile->irradiance_g[lane] = weighted_mean(weights, from->irradiance_g, PS_TILE_PIXELS);
     tile->irradiance_b[lane] = weighted_mean(weights, from->irradiance_b, PS_TILE_PIXELS);
+    for (int c = 0; c < 3 && samples->splatted; c++)
+        gbuffer_splatted(samples, 0, c)[lane] =
+            weighted_mean(weights, gbuffer_splatted(gbuffer, index, c), PS_TILE_PIXELS);
 }
 
 /* Few of the pixels around see the same reflection in gloss; with one of them, its noise would be
  * that of all samples. */
 void edge_interpolate(const struct gbuffer *gbuffer, const struct edge_neighbours *neighbours,
-                      uint32_t x, uint32_t y, bool stochastic, ps_tile *tile, uint32_t lane)
+                      uint32_t x, uint32_t y, bool stochastic, const struct gbuffer *samples,
+                      uint32_t lane)
 {
     uint32_t own_lane, own_tile = gbuffer_tile_of(gbuffer, x, y, &own_lane);
-    float count = interpolate_from_neighbours(neighbours, tile, lane);
+    float count = interpolate_from_neighbours(neighbours, samples, lane);
     if (count < (stochastic ? FEWEST_STOCHASTIC : 1.0f))
-        interpolate_from_tile(&gbuffer->tiles[own_tile], count, tile, lane);
+        interpolate_from_tile(gbuffer, own_tile, count, samples, lane);
 }

@@ -28,14 +28,16 @@ struct edge_neighbours {
         b[EDGE_NEIGHBOURS]; /* indirect irradiance, W/m^2 */
     float weight[EDGE_NEIGHBOURS];
     float radiance_r[EDGE_NEIGHBOURS], radiance_g[EDGE_NEIGHBOURS], radiance_b[EDGE_NEIGHBOURS];
+    float splatted[3][EDGE_NEIGHBOURS]; /* see struct gbuffer */
 };
 
 void edge_neighbours_find(const struct gbuffer *gbuffer, uint32_t x, uint32_t y,
                           struct edge_neighbours *neighbours);
 
-/* Sets the indirect light of a sample, a lane of a tile of samples, that lies in pixel (x, y).
- * `stochastic`: lens, gloss or glass decided what it sees. */
+/* Sets the indirect light of a sample, a lane of the only tile of `samples`, that lies in pixel (x,
+ * y). `stochastic`: lens, gloss or glass decided what it sees. */
 void edge_interpolate(const struct gbuffer *gbuffer, const struct edge_neighbours *neighbours,
-                      uint32_t x, uint32_t y, bool stochastic, ps_tile *tile, uint32_t lane);
+                      uint32_t x, uint32_t y, bool stochastic, const struct gbuffer *samples,
+                      uint32_t lane);
 
 #endif

@@ -19,7 +19,7 @@ struct edge_samples {
     ps_rgb hard[PS_TILE_PIXELS], hard_half[PS_TILE_PIXELS];
     uint8_t choice[PS_TILE_PIXELS]; /* enum path_choice */
     struct glossy_tile glossy;
-    float radiance[3 * PS_TILE_PIXELS];
+    float radiance[3 * PS_TILE_PIXELS], splatted[3 * PS_TILE_PIXELS];
     struct view_points points;
     uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
     struct light_runs light_runs;
@@ -78,7 +78,7 @@ static void add_to_film(const struct edge_pass *pass, const struct gbuffer *samp
         edge_neighbours_find(pass->gbuffer, batch->x[first], batch->y[first], &neighbours);
         for (end = first; end < count && same_pixel(batch, first, end); end++)
             edge_interpolate(pass->gbuffer, &neighbours, batch->x[end], batch->y[end],
-                             batch->choice[end], &batch->tile, end);
+                             batch->choice[end], samples, end);
         if (film_has_pixel(film, batch->x[first], batch->y[first]))
             film_add_samples(film, samples, first, end - first, share, batch->x[first],
                              batch->y[first]);
@@ -105,6 +105,7 @@ static void flush(const struct edge_pass *pass, struct edge_samples *batch, stru
         .choice = batch->choice,
         .glossy = pass->gbuffer->glossy ? &batch->glossy : NULL,
         .radiance = pass->gbuffer->radiance ? batch->radiance : NULL,
+        .splatted = pass->gbuffer->splatted ? batch->splatted : NULL,
     };
     struct view_pass view = {
         .lighting = *lighting,

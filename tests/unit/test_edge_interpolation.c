@@ -14,7 +14,9 @@
 static int open_gbuffer(void **state)
 {
     (void)state;
-    return create_gbuffer(PS_TILE_SIZE, PS_TILE_SIZE);
+    struct error error;
+    int failed = create_gbuffer(PS_TILE_SIZE, PS_TILE_SIZE);
+    return failed || gbuffer_prepare_splatted(&gbuffer, &error) != PS_OK;
 }
 
 static ps_hit hit_at(uint32_t object, float x, float y)
@@ -32,18 +34,24 @@ static void see(uint32_t lane, uint32_t object, float x, float y, float light)
     gbuffer_store(tile, lane, &hit, (ps_rgb){1, 1, 1}, 1);
     tile->irradiance_r[lane] = tile->irradiance_g[lane] = tile->irradiance_b[lane] = light;
     tile->weight[lane] = 1.0f;
+    gbuffer_splatted(&gbuffer, 0, 1)[lane] = 3.0f * light;
 }
 
-/* The light of a stochastic sample that sees the floor there. */
+/* The light of a stochastic sample that sees the floor there; what was splatted is interpolated as
+ * that is. */
 static float light_of_sample(float x, float y)
 {
-    static ps_tile samples;
+    static ps_tile tile;
+    static float splatted[3 * PS_TILE_PIXELS];
+    struct gbuffer samples = {.tiles = &tile, .tile_count = 1, .splatted = splatted};
     struct edge_neighbours neighbours;
     ps_hit hit = hit_at(FLOOR, x, y);
-    gbuffer_store(&samples, 0, &hit, (ps_rgb){1, 1, 1}, 1);
+    gbuffer_store(&tile, 0, &hit, (ps_rgb){1, 1, 1}, 1);
     edge_neighbours_find(&gbuffer, COLUMN, ROW, &neighbours);
     edge_interpolate(&gbuffer, &neighbours, COLUMN, ROW, true, &samples, 0);
-    return samples.irradiance_g[0];
+    float light = tile.irradiance_g[0];
+    assert_float_equal(gbuffer_splatted(&samples, 0, 1)[0] / light, 3.0, 1e-5);
+    return light;
 }
 
 /* Pixels of row 0 see the floor, one unit apart; all others a wall. */

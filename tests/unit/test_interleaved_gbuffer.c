@@ -186,6 +186,27 @@ static void test_one_subset_is_a_copy(void **state)
     close_bench(&bench);
 }
 
+/* Where it is kept apart, the tiles get its weight alone. */
+static void test_light_of_splats_apart(void **state)
+{
+    (void)state;
+    struct bench bench = open_bench(3);
+    struct error error;
+    assert_int_equal(gbuffer_prepare_splatted(&bench.gbuffer, &error), PS_OK);
+    light_subsets(&bench.interleaved);
+    interleaved_join(&bench.interleaved, &bench.gbuffer, bench.workers);
+    uint32_t lane;
+    const ps_tile *tile = tile_at(&bench, 20, 20, &lane);
+    uint32_t index = (uint32_t)(tile - bench.gbuffer.tiles);
+    for (int c = 0; c < 3; c++)
+        expect_near(gbuffer_splatted(&bench.gbuffer, index, c)[lane], (c + 1) * 5.0);
+    expect_near(tile->weight[lane], 2.5);
+    assert_true(tile->irradiance_r[lane] == 0.0f && tile->irradiance_b[lane] == 0.0f);
+    gbuffer_clear_indirect(&bench.gbuffer);
+    assert_true(gbuffer_splatted(&bench.gbuffer, index, 2)[lane] == 0.0f);
+    close_bench(&bench);
+}
+
 /* Blocks are bounded by their own pixels: as small as 4 pixels of their subset. */
 static void test_blocks_are_bounded(void **state)
 {
@@ -217,6 +238,7 @@ int main(void)
         cmocka_unit_test(test_joins_all_subsets_alike),
         cmocka_unit_test(test_surfaces_do_not_mix),
         cmocka_unit_test(test_one_subset_is_a_copy),
+        cmocka_unit_test(test_light_of_splats_apart),
         cmocka_unit_test(test_blocks_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
