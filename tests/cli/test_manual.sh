@@ -144,9 +144,13 @@ run 0 info film.exr
 sed -n 's/^\(psplat\.[a-z_.]*\): .*/\1/p' out | grep -vxF -f picture >program
 part "$man/psplat-film.5" ".Ss Attributes" | sed -n 's/^\.It Cm \(psplat\..*\)/\1/p' >page
 agree "attributes of psplat-film(5)"
-sed -n 's/^channels: //p' out | tr ' ' '\n' | sed -n 's/^sum\.//p' | grep -v '^odd\.\|^half\.' >program
+cp out films
+run 0 -q --size 16x9 --passes 0:1 --checkpoint spheres.exr "$PSPLAT_SOURCE/scenes/cornell-spheres.psd"
+run 0 info spheres.exr
+cat out >>films
+sed -n 's/^channels: //p' films | tr ' ' '\n' | sed -n 's/^sum\.//p' | grep -v '^odd\.\|^half\.' | sort -u >program
 part "$man/psplat-film.5" ".Ss Sums" | sed -n 's/^\.It Cm //p' | tr -d ' ' | tr , '\n' |
-    grep -v '^odd\.\|^half\.\|^reflected\|^hard\|^gloss' >page
+    grep -v '^odd\.\|^half\.\|^hard' >page
 agree "channels of psplat-film(5)"
 
 # --- examples of scenes are scenes ---
