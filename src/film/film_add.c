@@ -125,6 +125,19 @@ static void add_denoised(struct film *film, const struct tile_row *row, int chan
     add_shares(film, FILM_REFLECTED_R + channel, row, rest);
 }
 
+/* What was splatted beside other indirect light becomes part of it, and is added apart as well. */
+static void add_splatted(struct film *film, const struct tile_row *row, int channel,
+                         const float *irradiance, const float albedo[PS_TILE_SIZE],
+                         float indirect[PS_TILE_SIZE])
+{
+    float splatted[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++) {
+        splatted[i] = albedo[i] * (1.0f / PS_PI) * irradiance[i];
+        indirect[i] += splatted[i];
+    }
+    add_seen(film, FILM_SPLATTED_R + channel, row, splatted);
+}
+
 /* Adds one channel of direct and indirect light: albedo throughput / pi * irradiance. The
  * throughput includes 1 / probability of the lobes and 1 / eta^2 in glass, so albedo times
  * throughput can exceed 1; the albedo plane is limited to 1. */
@@ -132,7 +145,6 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
                           const struct row_channel *from)
 {
     float albedo[PS_TILE_SIZE], direct[PS_TILE_SIZE], indirect[PS_TILE_SIZE];
-    float splatted[PS_TILE_SIZE];
     for (size_t i = 0; i < row->count; i++) {
         albedo[i] = from->albedo[i] * from->throughput[i];
         float reflectance = albedo[i] * (1.0f / PS_PI);
@@ -141,11 +153,8 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
     }
     for (size_t i = 0; from->radiance && i < row->count; i++)
         indirect[i] += from->throughput[i] * from->radiance[i];
-    for (size_t i = 0; i < row->count; i++) {
-        splatted[i] = from->splatted ? albedo[i] * (1.0f / PS_PI) * from->splatted[i] : 0.0f;
-        indirect[i] += splatted[i];
-    }
-    add_seen(film, FILM_SPLATTED_R + channel, row, splatted);
+    if (from->splatted)
+        add_splatted(film, row, channel, from->splatted, albedo, indirect);
     add_seen(film, FILM_DIRECT_R + channel, row, direct);
     add_denoised(film, row, channel, from, albedo);
     add_seen(film, FILM_COLOR_R + channel, row, indirect);

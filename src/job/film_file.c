@@ -272,16 +272,19 @@ static bool has_halves(const struct film_sum *sum)
     return whole && count > 0;
 }
 
-/* All that a film of the driver has: the light of the odd passes in any case, and where the
- * reflected light is apart, half of it. */
+/* All that a film of the driver has: the light of the odd passes in any case, where the reflected
+ * light is apart, half of it, and all channels of splatted light, or none. */
 static bool has_what_it_needs(const struct film_sum *sum)
 {
     static const int odd = FILM_SUM_OF_ODD;
-    bool reflects = sum->planes[FILM_REFLECTED_R].high != NULL;
+    bool reflects = sum->planes[FILM_REFLECTED_R].high != NULL, splats = false;
+    for (int plane = FILM_SPLATTED_R; plane <= FILM_SPLATTED_B; plane++)
+        splats |= sum->planes[plane].high != NULL;
     return has_planes(sum, 0, FILM_ON_REQUEST) && sum->planes[FILM_SUM_OF_SQUARES].high &&
            has_planes(sum, odd + FILM_COLOR_R, odd + FILM_WEIGHT + 1) &&
            sum->planes[odd + FILM_COVERAGE].high &&
-           (!reflects || (has_direct(sum, 0) && has_halves(sum)));
+           (!reflects || (has_direct(sum, 0) && has_halves(sum))) &&
+           (!splats || has_planes(sum, FILM_SPLATTED_R, FILM_SPLATTED_B + 1));
 }
 
 static ps_result read_passes(const char *path, const struct image *image, struct pass_set *passes,

@@ -30,11 +30,10 @@ static void add_reflected(struct planes *planes, const struct render_settings *s
 }
 
 static void add_of_scene(struct planes *planes, const struct render_settings *settings,
-                         const struct scene *scene, uint32_t denoiser, bool keeps_film)
+                         const struct scene *scene, uint32_t denoiser)
 {
     planes->gloss = scene->microfacets && planes->surfaces;
     planes->caustics = scene->microfacets && !planes->splats;
-    planes->splatted = planes->caustics && may_denoise(settings, keeps_film);
     planes->geometric = (planes->splats || planes->caustics) && scene_has_shading_normals(scene);
     planes->discontinuity_buffer = settings->discontinuity_buffer && scene->has_area_lights;
     /* Halves of the direct light tell its noise from an edge, of which hard shadows have some. */
@@ -62,7 +61,8 @@ struct planes planes_wanted(const struct render_settings *settings, const struct
         .variance = (estimator & PS_ESTIMATOR_VARIANCE) && (denoiser & PS_DENOISER_VARIANCE),
     };
     if (scene)
-        add_of_scene(&planes, settings, scene, denoiser, keeps_film);
+        add_of_scene(&planes, settings, scene, denoiser);
+    planes.splatted = planes.caustics && may_denoise(settings, keeps_film);
     return planes;
 }
 

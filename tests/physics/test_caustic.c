@@ -297,7 +297,7 @@ static void test_focus(void **state)
     }
 }
 
-/* What photons are splatted onto is smooth, and passes by denoisers, if it is not all the light. */
+/* Light of splats is smooth, and passes by denoisers where estimators find the rest by rays. */
 static void test_focus_behind_a_denoiser(void **state)
 {
     (void)state;

@@ -29,7 +29,8 @@ static struct film any_film(uint32_t number)
     assert_int_equal(film_add_reflected(&film, true, &error), PS_OK);
     assert_int_equal(film_add_half_of_reflected(&film, true, &error), PS_OK);
     assert_int_equal(film_add_half_of_reflected(&film, false, &error), PS_OK);
-    assert_int_equal(film_add_plane(&film, FILM_VARIANCE, &error), PS_OK);
+    for (int plane = FILM_SPLATTED_R; plane <= FILM_VARIANCE; plane++)
+        assert_int_equal(film_add_plane(&film, plane, &error), PS_OK);
     assert_int_equal(film_begin_pass(&film, number, &error), PS_OK);
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PIXELS && film.planes[plane]; i++) {
@@ -194,6 +195,17 @@ static void drop_hard_half(struct image *image)
     image_keep_channels(image, is_no_hard_half, NULL);
 }
 
+static bool is_no_green_splatted(const void *user, const char *name)
+{
+    (void)user;
+    return strcmp(name, "sum.splatted.G") != 0;
+}
+
+static void drop_green_splatted(struct image *image)
+{
+    image_keep_channels(image, is_no_green_splatted, NULL);
+}
+
 static bool is_no_object(const void *user, const char *name)
 {
     (void)user;
@@ -235,6 +247,7 @@ static void test_what_is_no_whole_film(void **state)
     expect_refused(state, drop_halves, "layers are missing");
     expect_refused(state, drop_hard_half, "layers are missing");
     expect_refused(state, drop_reflected_odd, "layers are missing");
+    expect_refused(state, drop_green_splatted, "layers are missing");
     expect_refused(state, drop_objects, "numbers of objects are missing");
     expect_refused(state, spoil_object, "numbers of objects are none");
     expect_refused(state, spoil_material, "numbers of objects are none");
