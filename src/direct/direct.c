@@ -28,7 +28,7 @@ static void draw(const struct lighting *lighting, const struct light_numbers *fr
 {
     const struct scene *scene = lighting->scene;
     const uint64_t *indices = from->indices + first;
-    if (scene_needs_choices(scene) || lighting->light_threshold > 0.0f) {
+    if (receivers_need_choices(lighting)) {
         uint32_t key = sample_key(from->seed, from->stream, from->set | CHOICE_SETS);
         sample_points(key, indices, n, draws->numbers);
         for (size_t i = 0; i < n; i++)

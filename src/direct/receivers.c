@@ -247,11 +247,16 @@ struct drawn_lights {
     size_t counts[RECEIVERS_MOST];
 };
 
+static bool asks_all(const struct lighting *lighting)
+{
+    return !light_bvh_is_chosen_from(lighting->scene->light_bvh, lighting->choices);
+}
+
 static struct light_draws draws_of(const struct lighting *lighting)
 {
-    const struct scene *scene = lighting->scene;
-    bool all = !scene_chooses_lights(scene);
-    uint32_t most = all ? (uint32_t)light_bvh_count(scene->light_bvh) : lighting->choices;
+    bool all = asks_all(lighting);
+    size_t count = light_bvh_count(lighting->scene->light_bvh);
+    uint32_t most = all ? (uint32_t)count : lighting->choices;
     return (struct light_draws){most, all, lighting->light_threshold};
 }
 
@@ -319,7 +324,12 @@ static struct chosen all_that_ask_for(const struct receivers *to, ps_light_group
 /* Whether some points draw lights. */
 static bool draws_some(const struct lighting *lighting)
 {
-    return scene_chooses_lights(lighting->scene) || lighting->light_threshold > 0.0f;
+    return !asks_all(lighting) || lighting->light_threshold > 0.0f;
+}
+
+bool receivers_need_choices(const struct lighting *lighting)
+{
+    return lighting->scene->has_split_lights || draws_some(lighting);
 }
 
 void receivers_add_lights(const struct receivers *to, ps_rgb *sums)

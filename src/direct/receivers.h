@@ -1,10 +1,10 @@
 /* receivers.h: next-event estimation: points that sample the lights.
  *
- * Where the scene has few lights, each point samples all of them. Where it has more, each draws
- * lighting.choices by the light BVH (scene/light_bvh.h), which costs the same whatever their
- * number, and has noise. Of lights below lighting.light_threshold some are drawn in either case.
- * Sun and sky are always sampled. Of a mesh of many triangles a point samples one that the BVH
- * chooses.
+ * Where the scene has few lights, each point samples all of them. Where it has more than twice
+ * lighting.choices, each draws that many by the light BVH (scene/light_bvh.h), which costs the
+ * same whatever their number, and has noise. Of lights below lighting.light_threshold some are
+ * drawn in either case. Sun and sky are always sampled. Of a mesh of many triangles a point
+ * samples one that the BVH chooses.
  */
 #ifndef DIRECT_RECEIVERS_H
 #define DIRECT_RECEIVERS_H
@@ -28,6 +28,9 @@ struct receivers {
     ps_rgb *hard;
     uint64_t *occlusion; /* what rays to the lights met, see gbuffer_occlusion; NULL: nobody asks */
 };
+
+/* Whether `choices` are needed: to choose lights, or parts of them. */
+bool receivers_need_choices(const struct lighting *lighting);
 
 /* Adds what the lights give: irradiance, or the radiance that the surfaces hit reflect. */
 void receivers_add_lights(const struct receivers *receivers, ps_rgb *sums);

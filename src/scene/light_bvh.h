@@ -36,6 +36,10 @@ size_t light_bvh_bytes(const struct light_bvh *bvh);
 /* Lights that are in the tree: have a place and a size or intensity. */
 size_t light_bvh_count(const struct light_bvh *bvh);
 
+/* Whether points that draw so many lights draw them, and do not ask all: where there are more than
+ * twice as many. To choose one costs about as much as to ask it. */
+bool light_bvh_is_chosen_from(const struct light_bvh *bvh, uint32_t choices);
+
 /* The lights that are in the tree, neighbours side by side; returns how many. */
 size_t light_bvh_list(const struct light_bvh *bvh, uint32_t *lights);
 

@@ -324,6 +324,11 @@ size_t light_bvh_count(const struct light_bvh *bvh)
     return bvh->placed;
 }
 
+bool light_bvh_is_chosen_from(const struct light_bvh *bvh, uint32_t choices)
+{
+    return bvh->placed > 2 * (size_t)choices;
+}
+
 bool light_bvh_is_split(const struct light_bvh *bvh, size_t light)
 {
     const struct light *from = &bvh->lights[light];

@@ -64,8 +64,9 @@ struct scene {
     struct camera camera;
     enum pixel_filter pixel_filter;
     uint32_t light_samples;
-    uint32_t light_choices; /* lights that a point that is seen asks, of more than twice as many */
-    uint32_t path_light_choices; /* the same of a point that paths meet */
+    /* Lights that a point draws, of more than twice as many: one that is seen, and one that paths
+     * meet. */
+    uint32_t light_choices, path_light_choices;
     size_t width, height;
     size_t dropped_triangles; /* without area */
     ps_vec3 center;           /* of the bounding sphere of shapes */
@@ -95,15 +96,11 @@ const struct shape *scene_shape_of(const struct scene *scene, uint32_t object);
 size_t scene_bytes(const struct scene *scene);
 double scene_bytes_to_come(const struct scene *scene);
 
-/* Whether points ask some of the lights, since there are more than twice light_choices: to choose
- * one costs about as much as to ask it. */
+/* Whether points that are seen ask some of the lights (light_bvh_is_chosen_from). */
 bool scene_chooses_lights(const struct scene *scene);
 
 /* Whether normals of some surface are smoothed or bent. */
 bool scene_has_shading_normals(const struct scene *scene);
-
-/* Whether points choose lights, or parts of them. */
-bool scene_needs_choices(const struct scene *scene);
 
 /* Whether some light is a sky. */
 bool scene_has_sky(const struct scene *scene);

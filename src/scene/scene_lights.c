@@ -311,12 +311,7 @@ ps_result assembly_add_lights(struct assembly *assembly)
 
 bool scene_chooses_lights(const struct scene *scene)
 {
-    return light_bvh_count(scene->light_bvh) > 2 * (size_t)scene->light_choices;
-}
-
-bool scene_needs_choices(const struct scene *scene)
-{
-    return scene->has_split_lights || scene_chooses_lights(scene);
+    return light_bvh_is_chosen_from(scene->light_bvh, scene->light_choices);
 }
 
 bool scene_has_sky(const struct scene *scene)

@@ -58,6 +58,13 @@ static const char points[] =
     "                intensity: 20}\n"
     "  - sky: {radiance: 0.1}\n";
 
+/* Nine, of which pixels ask all and points that paths meet draw two. */
+static const char few_bulbs[] =
+    "  - for: i\n"
+    "    from: 0\n"
+    "    to: 8\n"
+    "    do: {instance: {of: bulb, translate: [=0.9*i-3.6, '=2.2+0.5*sin(3*i)', '=3*cos(5*i)']}}\n";
+
 static struct estimate render_with(const char *material, const char *lights, int choices,
                                    const char *estimator, const char *channel)
 {
@@ -94,6 +101,7 @@ static void test_paths(void **state)
     (void)state;
     expect_alike("white", points, "estimator=pathtrace:samples=16", "indirect.G", 0.01);
     expect_alike("white", bulbs, "estimator=pathtrace:samples=16", "indirect.G", 0.01);
+    expect_alike("white", few_bulbs, "estimator=pathtrace:samples=16", "indirect.G", 0.01);
 }
 
 /* All strategies together, each of which tells the chance of a light that another one drew. */
@@ -115,6 +123,7 @@ static void test_gloss(void **state)
     (void)state;
     expect_alike("gloss", bulbs, "estimator=ambient:irradiance=0", "direct.G", 0.02);
     expect_alike("gloss", bulbs, "estimator=pathtrace:samples=16", "indirect.G", 0.02);
+    expect_alike("gloss", few_bulbs, "estimator=pathtrace:samples=256", "indirect.G", 0.02);
 }
 
 int main(void)
