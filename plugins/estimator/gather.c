@@ -21,7 +21,8 @@
  * gloss reflects (PS_ROUGH_GLOSS) is wide and faint: next-event estimation finds it where rays end,
  * without the blotches of few photons.
  *
- * Rays are drawn where those before them found light (guide.h), in rounds, and more of them in
+ * Rays are drawn where those before them found light (guide.h), the first ones where photons came
+ * from, if that is a small part of the hemisphere (photon_guide.h); in rounds, and more of them in
  * tiles whose first round asks for it (allocation.h). A tile's rays of a round share a run of the
  * Sobol sequence along a Z curve, as in pathtrace.c.
  */
@@ -46,6 +47,8 @@ struct pass_cache {
     uint32_t pass;
     bool has_surfels; /* they were looked for, and there may be none */
     struct surfels surfels;
+    bool has_photons;
+    struct photon_guide photons; /* by which first rays are guided */
     struct gather_allocation allocation;
 };
 
@@ -62,7 +65,7 @@ struct state {
 struct work {
     const struct state *state;
     struct gather_setting setting;
-    struct surfels *surfels;
+    struct pass_cache *cache;
 };
 
 /* --- photons --- */
@@ -73,6 +76,8 @@ struct work {
  * paths there, too: few photons with all of that light would make blotches. */
 struct splatting {
     const ps_host *host;
+    const ps_pass *pass;
+    struct virtual_lights *lights; /* by which first rays are guided; NULL: they are known */
     bool onto_pixels, onto_surfels;
     uint32_t most_bounces; /* of those onto surfels, which are one surface on */
     uint64_t thinning;
@@ -82,8 +87,8 @@ struct splatting {
 
 static bool belongs_on_pixels(const void *opaque, const ps_photon *photon)
 {
-    const struct splatting *splatting = opaque;
-    return splatting->onto_pixels && photon->bounce == 0 && photon->specular == PS_SHARP_GLOSS;
+    (void)opaque;
+    return photon->bounce == 0 && photon->specular == PS_SHARP_GLOSS;
 }
 
 /* Paths that share places (ps_pass.shares_places) follow one another, and are better taken
@@ -91,7 +96,7 @@ static bool belongs_on_pixels(const void *opaque, const ps_photon *photon)
 static bool belongs_on_surfels(const void *opaque, const ps_photon *photon)
 {
     const struct splatting *splatting = opaque;
-    return splatting->onto_surfels && photon->bounce <= splatting->most_bounces &&
+    return photon->bounce <= splatting->most_bounces &&
            photon->path / THINNED_TOGETHER % splatting->thinning == 0;
 }
 
@@ -130,11 +135,15 @@ static ps_result splat_batch(void *opaque, const ps_photon *photons, size_t n)
 {
     struct splatting *splatting = opaque;
     const ps_host *host = splatting->host;
-    ps_result result = photons_splat(host, host->splat_points, photons, n, is_diffuse_on_surfels,
-                                     splatting, (float)splatting->thinning);
+    if (splatting->lights)
+        virtual_lights_take(splatting->lights, splatting->pass, photons, n);
+    ps_result result = PS_OK;
+    if (splatting->onto_surfels)
+        result = photons_splat(host, host->splat_points, photons, n, is_diffuse_on_surfels,
+                               splatting, (float)splatting->thinning);
     if (result == PS_OK && splatting->onto_surfels)
         result = collect_specular(splatting, photons, n);
-    if (result == PS_OK)
+    if (result == PS_OK && splatting->onto_pixels)
         result = photons_splat(host, host->splat, photons, n, belongs_on_pixels, splatting, 1.0f);
     return result;
 }
@@ -174,7 +183,7 @@ static ps_result light_surfels(struct work *work, const struct splatting *splatt
 {
     const struct paths_setting *setting = &work->setting.paths;
     const ps_host *host = setting->host;
-    struct surfels *surfels = work->surfels;
+    struct surfels *surfels = &work->cache->surfels;
     uint64_t paths = paths_of_surfel(work->state);
     ps_result result = host->end_points(host, surfels->irradiance);
     if (result == PS_OK && paths > 0)
@@ -182,28 +191,45 @@ static ps_result light_surfels(struct work *work, const struct splatting *splatt
     return result == PS_OK ? splat_specular(splatting, surfels) : result;
 }
 
+/* For guides of this part of the picture and the next ones. */
+static ps_result keep_photons(struct virtual_lights *lights, struct pass_cache *cache)
+{
+    virtual_lights_end(lights);
+    cache->has_photons = true;
+    return photon_guide_create(lights, &cache->photons);
+}
+
 /* Splats the pass's photons onto pixels, and onto surfels that lack their light. */
 static ps_result splat(struct work *work, bool onto_surfels)
 {
     const ps_host *host = work->setting.paths.host;
-    struct surfels *surfels = work->surfels;
+    struct surfels *surfels = &work->cache->surfels;
+    struct virtual_lights lights = {.host = host};
+    bool has_photons = work->cache->has_photons;
     struct splatting splatting = {
         .host = host,
+        .pass = work->setting.paths.pass,
+        .lights = has_photons ? NULL : &lights,
         .onto_pixels = work->setting.paths.pass->specular,
         .onto_surfels = onto_surfels && surfels->count > 0,
         .most_bounces = work->setting.paths.pass->bounces - 1,
         .thinning = (uint64_t)work->state->thinning,
     };
     ps_result result = PS_OK;
-    if (splatting.onto_pixels)
+    if (!has_photons)
+        result = virtual_lights_begin(host, PHOTON_GUIDE_LIGHTS, &lights);
+    if (result == PS_OK && splatting.onto_pixels)
         result = host->begin_splats(host, 0);
     if (result == PS_OK && splatting.onto_surfels)
         result = host->begin_points(host, surfels->positions, surfels->normals, surfels->count);
-    if (result == PS_OK && (splatting.onto_pixels || splatting.onto_surfels))
+    if (result == PS_OK && (!has_photons || splatting.onto_pixels || splatting.onto_surfels))
         result = photons_for_each_batch(host, splat_batch, &splatting);
+    if (result == PS_OK && !has_photons)
+        result = keep_photons(&lights, work->cache);
     if (result == PS_OK && splatting.onto_surfels)
         result = light_surfels(work, &splatting);
     host->release(host, splatting.specular);
+    virtual_lights_release(&lights);
     return result;
 }
 
@@ -217,8 +243,10 @@ static uint32_t surfels_of_tile(const struct state *state, const ps_pass *pass)
 
 static void clear_cache(struct pass_cache *cache)
 {
+    const ps_host *host = cache->surfels.host;
     surfels_release(&cache->surfels);
-    *cache = (struct pass_cache){.surfels = {.host = cache->surfels.host}};
+    photon_guide_release(&cache->photons);
+    *cache = (struct pass_cache){.surfels = {.host = host}, .photons = {.host = host}};
 }
 
 /* What is known of a pass's whole picture, or room for it: in the state where another part may ask
@@ -259,6 +287,7 @@ static ps_result splat_pass(struct work *work, struct pass_cache *cache)
     if (result == PS_OK && finds && surfels->count > 0)
         result = surfel_table_build(surfels);
     cache->has_surfels |= finds;
+    work->setting.photons = &cache->photons;
     if (surfels->count > 0) {
         work->setting.lookup = surfel_table_lookup;
         work->setting.cache = surfels;
@@ -271,8 +300,8 @@ static ps_result splat_pass(struct work *work, struct pass_cache *cache)
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     struct state *state = opaque;
-    struct pass_cache own = {.surfels = {.host = host}}, *cache = cache_of_pass(state, pass, &own);
-    cache->surfels.host = host;
+    struct pass_cache own = {0}, *cache = cache_of_pass(state, pass, &own);
+    cache->surfels.host = cache->photons.host = host;
     struct work work = {
         .state = state,
         .setting = {.paths = {.host = host,
@@ -283,7 +312,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
                     .first = gather_first_of((uint64_t)state->samples),
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .share_before = SURFEL_SHARE},
-        .surfels = &cache->surfels,
+        .cache = cache,
     };
     host->progress_part(host, 0.0, SURFEL_SHARE);
     ps_result result = splat_pass(&work, cache);
@@ -299,7 +328,7 @@ static void destroy(void *opaque, const ps_host *host)
 {
     struct state *state = opaque;
     for (int i = 0; i < MOST_CACHED_PASSES; i++) {
-        state->caches[i].surfels.host = host;
+        state->caches[i].surfels.host = state->caches[i].photons.host = host;
         clear_cache(&state->caches[i]);
     }
 }

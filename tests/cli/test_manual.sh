@@ -114,6 +114,7 @@ for choice in stratification=cascade estimator=splat estimator=photonmap estimat
     denoiser=gaussian bloom=glare visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8
 done
+gather_statistics -p injection=photon:count=200 -p estimator=gather:samples=8 --bounces all
 for abuse in negative keep; do
     compile_module "$PSPLAT_SOURCE/include" "$PSPLAT_SOURCE/tests/plugins/abusive.c" "$PWD/abusive.so" "-DABUSE=\"$abuse\""
     gather_statistics $photon -p estimator=./abusive.so

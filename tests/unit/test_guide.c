@@ -204,6 +204,48 @@ static void test_learns_nothing_from_another_side(void **state)
             assert_true(guide.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS] == 0.0f);
 }
 
+/* What two halves say of light from a share of the hemisphere. */
+static struct guide coarse_guide_of(uint32_t rings)
+{
+    struct guide guide;
+    guide_begin(&guide, up);
+    for (uint32_t ring = 0; ring < rings; ring++)
+        for (uint32_t sector = 0; sector < rings * 2; sector++) {
+            struct guide_bin bin = {(int32_t)(ring * GUIDE_SECTORS + sector), 1.0f};
+            guide_add(&guide, 0, bin, 1.0f);
+            guide_add(&guide, 1, bin, 3.0f);
+        }
+    guide_update_coarse(&guide);
+    return guide;
+}
+
+static void test_coarse_guide_draws_by_the_cosine_unless_light_is_concentrated(void **state)
+{
+    (void)state;
+    struct guide even = coarse_guide_of(GUIDE_RINGS), spot = coarse_guide_of(1);
+    struct guide quarter = coarse_guide_of(GUIDE_RINGS / 2);
+    struct random random = {11};
+    double sum = 0;
+    assert_true(even.scale == 0.0f);
+    assert_true(quarter.scale == 0.0f);
+    assert_true(spot.by_cosine < 0.5f);
+    for (int i = 0; i < RAYS; i++)
+        sum += 1.0 / guide_sample(&spot, up, random_unit(&random), random_unit(&random)).ratio;
+    assert_true(fabs(sum / RAYS - 1) < 0.03);
+}
+
+/* Light that one half alone has found may be chance. */
+static void test_coarse_guide_trusts_what_both_halves_found(void **state)
+{
+    (void)state;
+    struct guide guide;
+    guide_begin(&guide, up);
+    guide_add(&guide, 0, (struct guide_bin){5, 1.0f}, 1.0f);
+    guide_add(&guide, 1, (struct guide_bin){5 * GUIDE_SECTORS, 1.0f}, 1.0f);
+    guide_update_coarse(&guide);
+    assert_true(guide.scale == 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -214,6 +256,8 @@ int main(void)
         cmocka_unit_test(test_learns_from_another),
         cmocka_unit_test(test_learns_from_one_that_faces_another_way),
         cmocka_unit_test(test_learns_nothing_from_another_side),
+        cmocka_unit_test(test_coarse_guide_draws_by_the_cosine_unless_light_is_concentrated),
+        cmocka_unit_test(test_coarse_guide_trusts_what_both_halves_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

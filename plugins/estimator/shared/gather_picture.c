@@ -96,6 +96,7 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
         work->first_rounds[slot].guide_count = 0; /* also of a tile that sees nothing */
     if (!begin_tile(work, index, &tile, &gather))
         return;
+    gather_guide_first(&gather);
     gather_samples(&gather, work->setting->first);
     sample_factors(&gather.points, gather.first.factors);
     work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
@@ -150,6 +151,8 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
         struct tile_pilot second = pilot_of(&gather, tile, SECOND_HALF);
         gather.expected_samples[0] = allocated_samples(allocation, &second);
         gather.expected_samples[1] = allocated_samples(allocation, &first);
+    } else {
+        gather_guide_first(&gather);
     }
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)

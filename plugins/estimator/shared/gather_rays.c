@@ -41,18 +41,58 @@ static uint8_t choose_guide(struct gather *gather, ps_vec3 normal)
 static void face_mean_normals(struct gather *gather)
 {
     ps_vec3 sums[GATHER_GUIDES] = {{0, 0, 0}};
-    bool is_bent[GATHER_GUIDES] = {false};
     for (size_t i = 0; i < gather->points.count; i++) {
         uint8_t which = gather->guide_of[i];
         ps_vec3 normal = gather->points.normals[i], first = gather->guides[which].normal;
         if (ps_dot(normal, first) < SAME_FACING)
             continue;
         sums[which] = ps_add(sums[which], normal);
-        is_bent[which] |= !ps_same(normal, first);
+        gather->is_bent[which] |= !ps_same(normal, first);
     }
     for (uint32_t i = 0; i < gather->guide_count; i++)
-        if (is_bent[i])
+        if (gather->is_bent[i])
             guide_begin(&gather->guides[i], ps_normalize(sums[i]));
+}
+
+/* Turns guides of bent surfaces as those points face which get most of the light: or at the edge of
+ * a ball's shade it would come from below the horizon of the mean. */
+static void face_lit_points(struct gather *gather, const struct photon_guide_draws *drawn)
+{
+    ps_vec3 sums[GATHER_GUIDES] = {{0, 0, 0}};
+    for (size_t k = 0; k < drawn->count; k++) {
+        size_t i = drawn->points[k];
+        ps_vec3 normal = gather->points.normals[i];
+        uint8_t which = gather->guide_of[i];
+        if (ps_dot(normal, gather->guides[which].normal) >= SAME_FACING)
+            sums[which] = ps_add_scaled(sums[which], drawn->light[k], normal);
+    }
+    for (uint32_t i = 0; i < gather->guide_count; i++)
+        if (gather->is_bent[i] && ps_length(sums[i]) > 0.0f)
+            guide_begin(&gather->guides[i], ps_normalize(sums[i]));
+}
+
+void gather_guide_first(struct gather *gather)
+{
+    const struct gather_setting *setting = gather->setting;
+    if (!setting->photons)
+        return;
+    struct photon_guide_draws drawn;
+    photon_guide_draw(setting->photons, setting->paths.pass, &gather->points, gather->index,
+                      &drawn);
+    face_lit_points(gather, &drawn);
+    for (uint32_t i = 0; i < gather->guide_count; i++)
+        guide_begin(&gather->first_guides[i], gather->guides[i].normal);
+    for (size_t k = 0; k < drawn.count; k++) {
+        size_t i = drawn.points[k];
+        struct guide *guide = &gather->first_guides[gather->guide_of[i]];
+        guide_add(guide, drawn.halves[k],
+                  guide_bin_of(guide, gather->points.normals[i], drawn.rays[k].direction),
+                  drawn.light[k]);
+    }
+    for (uint32_t i = 0; i < gather->guide_count; i++) {
+        guide_update_coarse(&gather->first_guides[i]);
+        gather->first.is_guided |= gather->first_guides[i].scale > 0.0f;
+    }
 }
 
 void gather_begin(struct gather *gather)
@@ -130,10 +170,17 @@ int gather_half_of(const struct gather *gather, size_t point)
     return ps_lane_along_curve(gather->points.lanes[point]) >= PS_TILE_PIXELS / 2;
 }
 
-/* p_c / (c p_c + g q), where q is `ratio` of p_c and g the guided rays that are expected. */
-static float balanced(const struct gather *gather, size_t i, float ratio)
+static float first_ratio(const struct gather *gather, size_t i, struct guide_bin bin)
 {
-    return 1.0f / ((float)gather->setting->first + gather->guided_expected[i] * ratio);
+    return gather->first.is_guided ? guide_ratio(&gather->first_guides[gather->guide_of[i]], bin)
+                                   : 1.0f;
+}
+
+/* p_c / (c p + g q), where p and q are `first` and `ratio` of the cosine's density p_c, and g the
+ * guided rays that are expected. */
+static float balanced(const struct gather *gather, size_t i, float first, float ratio)
+{
+    return 1.0f / ((float)gather->setting->first * first + gather->guided_expected[i] * ratio);
 }
 
 static void add_to_guide(struct gather *gather, size_t i, struct guide_bin bin, ps_rgb found)
@@ -160,7 +207,8 @@ static void end_sample(struct gather *gather, const struct batch *batch, size_t 
         add(gather, i, found, 1.0f / (float)gather->taken[i], half);
     } else {
         float ratio = smooth_ratio(gather, i, batch->bins[k]);
-        float guided = gather->guided_expected[i] * ratio * balanced(gather, i, ratio);
+        float first = first_ratio(gather, i, batch->bins[k]);
+        float guided = gather->guided_expected[i] * ratio * balanced(gather, i, first, ratio);
         float weight = gather->guided_share[i] * guided;
         add(gather, i, found, weight, half);
         add_square(gather, i, found, weight);
@@ -179,8 +227,10 @@ static void add_first(struct gather *gather)
             if (gather->taken[i] == 0 || !(ps_luminance(found) > 0.0f))
                 continue;
             float share = (float)gather->taken[i] * gather->guided_share[i];
-            float ratio = smooth_ratio(gather, i, gather->first.bins[number][i]);
-            float weight = share * balanced(gather, i, ratio);
+            struct guide_bin bin = gather->first.bins[number][i];
+            float first = first_ratio(gather, i, bin);
+            float ratio = smooth_ratio(gather, i, bin);
+            float weight = share * first * balanced(gather, i, first, ratio);
             add(gather, i, found, weight, number < gather->setting->first / 2);
             gather->first_weights[number][i] += weight;
         }
@@ -193,13 +243,15 @@ static void start_paths(const struct gather *gather, struct batch *batch, struct
 {
     const struct paths_setting *setting = &gather->setting->paths;
     const ps_points *points = &batch->points;
+    bool by_photons = batch->round->is_first && gather->first.is_guided;
+    const struct guide *guides = by_photons ? gather->first_guides : gather->guides;
     setting->host->samples(setting->host, PS_STREAM_PATH, 1, batch->indices, points->count,
                            segment->numbers);
     paths->count = 0;
     for (uint32_t k = 0; k < points->count; k++) {
         /* Not a copy: GCC 12 puts one together on the stack, and waits for that to load it. */
         const ps_vec3 *normal = &points->normals[k];
-        const struct guide *guide = &gather->guides[gather->guide_of[batch->of[k]]];
+        const struct guide *guide = &guides[gather->guide_of[batch->of[k]]];
         struct guide_sample sample =
             guide_sample(guide, *normal, segment->numbers[k][0], segment->numbers[k][1]);
         batch->bins[k] = sample.bin;
@@ -402,10 +454,15 @@ void gather_resume(struct gather *gather, const struct gather_first *first,
                    const struct gather_first *const around[], size_t count)
 {
     gather->first = *first;
+    if (first->is_guided)
+        gather_guide_first(gather);
     gather->done = gather->setting->first;
-    for (uint32_t i = 0; i < gather->guide_count; i++)
+    for (uint32_t i = 0; i < gather->guide_count; i++) {
+        if (gather->is_bent[i])
+            guide_begin(&gather->guides[i], first->histograms[i].normal);
         memcpy(gather->guides[i].found, first->histograms[i].found,
                sizeof first->histograms[i].found);
+    }
     add_from_around(gather, around, count);
     update_guides(gather);
 }

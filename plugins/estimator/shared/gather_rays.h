@@ -3,11 +3,11 @@
  * Paths leave the points (paths.h) and go on until a cache of irradiance knows the rest, or to
  * their end. Their first directions are drawn where those before them found light (guide.h).
  *
- * The first round's rays, c of them with the cosine's density p_c, are much noisier than the g
- * guided ones where light comes from a small part of the hemisphere. Both are combined by the
- * balance heuristic (Veach and Guibas 1995), with a density q:
+ * The first round's rays, c of them with the cosine's density, or where light is concentrated half
+ * by that and half by what photons say (photon_guide.h), p, are noisier than the g guided ones.
+ * Both are combined by the balance heuristic (Veach and Guibas 1995), with a density q:
  *
- *     w_cosine = c p_c / (c p_c + g q),   w_guided = g q / (c p_c + g q)
+ *     w_first = c p / (c p + g q),   w_guided = g q / (c p + g q)
  *
  * For each direction the weights add up to 1 whatever q is, so q may be smoother than the density
  * that was sampled (guide_smooth_ratio()). Where there are guides of several rounds, this is done
@@ -23,6 +23,7 @@
 #include "guide.h"
 
 #include "paths.h"
+#include "photon_guide.h"
 #include "sample_factors.h"
 
 /* Guides of a group, one for each way that its surfaces face. */
@@ -66,16 +67,18 @@ struct gather_setting {
     const void *cache;
     bool cache_has_indirect; /* paths end there */
     bool cache_has_sky;      /* light of PS_LIGHTS_SOFT: paths sample only the other lights there */
-    double share_before;     /* of a pass's time, which what comes before the picture takes */
+    const struct photon_guide *photons; /* by which first rays are guided; NULL: by the cosine */
+    double share_before; /* of a pass's time, which what comes before the picture takes */
 };
 
-/* What the rays of the first round found, by the cosine, and where: to be weighed when there are
+/* What the rays of the first round found, and where: to be weighed when there are
  * guides. And the guides' histograms of that (gather_keep_first_round()). */
 struct gather_first {
     /* Factors on the number of guided samples of each point (sample_factors.h): set by
      * gather_begin() to 1. */
     float factors[PS_TILE_PIXELS];
     float nearest[PS_TILE_PIXELS]; /* least distance that a point's rays went (contact.h) */
+    bool is_guided;                /* by photons, at some points */
     ps_rgb found[GATHER_MOST_FIRST][PS_TILE_PIXELS];
     struct guide_bin bins[GATHER_MOST_FIRST][PS_TILE_PIXELS];
     uint32_t guide_count;
@@ -104,7 +107,9 @@ struct gather {
     float guided_share[PS_TILE_PIXELS], guided_expected[PS_TILE_PIXELS];
     uint8_t guide_of[PS_TILE_PIXELS];
     uint32_t guide_count;
+    bool is_bent[GATHER_GUIDES]; /* points of a guide face different ways */
     struct guide guides[GATHER_GUIDES];
+    struct guide first_guides[GATHER_GUIDES]; /* of the first round, where first.is_guided */
 };
 
 /* Which half of the group a point is of, 0 or 1: of the curve, along which samples are
@@ -113,6 +118,10 @@ int gather_half_of(const struct gather *gather, size_t point);
 
 /* Chooses guides, when setting, index and points are given and the rest is 0. */
 void gather_begin(struct gather *gather);
+
+/* Has photons guide the first round, if setting->photons are given; and guides of bent surfaces
+ * then face as those points do which get most of the light. */
+void gather_guide_first(struct gather *gather);
 
 /* Takes samples in rounds, until `samples` are done of a point whose factor is 1. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);

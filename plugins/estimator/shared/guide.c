@@ -5,15 +5,18 @@
 
 _Static_assert(GUIDE_SECTORS == 16, "sector_of");
 
-#define BY_COSINE 0.25f     /* share of the rays */
-#define LEAST_LIGHT 1e-30f  /* or a guide knows of none: W/m^2 */
-#define SAME_FRAME 0.99f    /* cosine between axes */
-#define SIMILAR_FACING 0.7f /* cosine between normals of guides that tell each other */
+#define BY_COSINE 0.25f       /* share of the rays */
+#define COARSE_BY_COSINE 0.5f /* least share of those of a coarse guide */
+#define SPREAD 4.5f           /* concentration up to which the cosine does better than that */
+#define LEAST_LIGHT 1e-30f    /* or a guide knows of none: W/m^2 */
+#define SAME_FRAME 0.99f      /* cosine between axes */
+#define SIMILAR_FACING 0.7f   /* cosine between normals of guides that tell each other */
 
 void guide_begin(struct guide *guide, ps_vec3 normal)
 {
     memset(guide, 0, sizeof *guide);
     guide->normal = normal;
+    guide->by_cosine = BY_COSINE;
     ps_frame(normal, &guide->u, &guide->v);
 }
 
@@ -91,38 +94,27 @@ void guide_add_histogram(struct guide *guide, const struct guide_histogram *hist
 
 /* --- smoothing --- */
 
-/* Neighbours tell of a bin, too: what of ring `from`, and of a sector `away` from it, counts
- * there. */
-static float of_ring(int to, int from)
-{
-    bool is_border = to == 0 || to == GUIDE_RINGS - 1;
-    return (to == from ? 0.5f : 0.25f) / (is_border ? 0.75f : 1.0f);
-}
-
-static float of_sector(int away)
-{
-    return away == 0 ? 0.5f : 0.25f;
-}
-
-static float smoothed(guide_bins bins, int ring, int sector)
-{
-    int first = ring > 0 ? ring - 1 : 0, last = ring < GUIDE_RINGS - 1 ? ring + 1 : ring;
-    float sum = 0.0f;
-    for (int from = first; from <= last; from++)
-        for (int away = -1; away <= 1; away++) {
-            int other = (sector + away + GUIDE_SECTORS) % GUIDE_SECTORS;
-            sum += of_ring(ring, from) * of_sector(away) * bins[from][other];
-        }
-    return sum;
-}
-
-/* Returns the sum of all bins. */
+/* Neighbours tell of a bin, too: half of what it gets is its own, and a quarter comes from either
+ * side, along its ring, then across the rings, where the first and the last have one neighbour.
+ * Returns the sum of all bins. */
 static float smooth(guide_bins from, guide_bins to)
 {
+    const int last = GUIDE_RINGS - 1;
+    guide_bins along;
     float sum = 0.0f;
     for (int ring = 0; ring < GUIDE_RINGS; ring++)
         for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
-            to[ring][sector] = smoothed(from, ring, sector);
+            float before = from[ring][(sector + GUIDE_SECTORS - 1) % GUIDE_SECTORS];
+            float after = from[ring][(sector + 1) % GUIDE_SECTORS];
+            along[ring][sector] = 0.5f * from[ring][sector] + 0.25f * (before + after);
+        }
+    for (int ring = 0; ring < GUIDE_RINGS; ring++)
+        for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
+            float own = 0.5f * along[ring][sector];
+            float below = ring > 0 ? 0.25f * along[ring - 1][sector] : 0.0f;
+            float above = ring < last ? 0.25f * along[ring + 1][sector] : 0.0f;
+            float whole = ring > 0 && ring < last ? 1.0f : 0.75f;
+            to[ring][sector] = (own + below + above) / whole;
             sum += to[ring][sector];
         }
     return sum;
@@ -130,9 +122,9 @@ static float smooth(guide_bins from, guide_bins to)
 
 /* The factor by which the light of a bin becomes a density over that of the cosine; `total`: of all
  * bins. */
-static float scale_of(float total)
+static float scale_of(const struct guide *guide, float total)
 {
-    return total > LEAST_LIGHT ? (1.0f - BY_COSINE) * (float)GUIDE_BINS / total : 0.0f;
+    return total > LEAST_LIGHT ? (1.0f - guide->by_cosine) * (float)GUIDE_BINS / total : 0.0f;
 }
 
 void guide_update(struct guide *guide)
@@ -140,7 +132,7 @@ void guide_update(struct guide *guide)
     guide_bins once[2];
     for (int half = 0; half < 2; half++) {
         smooth(guide->found[half], once[half]);
-        guide->smooth_scale[half] = scale_of(smooth(once[half], guide->smooth[half]));
+        guide->smooth_scale[half] = scale_of(guide, smooth(once[half], guide->smooth[half]));
     }
     float total = 0.0f;
     for (int ring = 0; ring < GUIDE_RINGS; ring++) {
@@ -153,7 +145,33 @@ void guide_update(struct guide *guide)
         total += sectors;
         guide->ring_ends[ring] = total;
     }
-    guide->scale = scale_of(total);
+    guide->scale = scale_of(guide, total);
+}
+
+/* The second moment of the light of a ray that the cosine draws, over the square of the mean: 1 if
+ * light comes evenly. From two independent estimates of the light, or their noise would count. */
+static float concentration(guide_bins a, guide_bins b)
+{
+    float sum_a = 0.0f, sum_b = 0.0f, products = 0.0f;
+    for (int ring = 0; ring < GUIDE_RINGS; ring++)
+        for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
+            sum_a += a[ring][sector];
+            sum_b += b[ring][sector];
+            products += a[ring][sector] * b[ring][sector];
+        }
+    return sum_a > LEAST_LIGHT && sum_b > LEAST_LIGHT ? (float)GUIDE_BINS * products / sum_a / sum_b
+                                                      : 0.0f;
+}
+
+void guide_update_coarse(struct guide *guide)
+{
+    guide_bins once[2];
+    for (int half = 0; half < 2; half++)
+        smooth(guide->found[half], once[half]);
+    float concentrated = concentration(once[0], once[1]);
+    guide->by_cosine =
+        concentrated > SPREAD ? ps_max(SPREAD / concentrated, COARSE_BY_COSINE) : 1.0f;
+    guide_update(guide);
 }
 
 /* --- directions --- */
@@ -212,24 +230,25 @@ static inline struct guide_sample direction_at(const struct guide *guide, float 
                                  1.0f};
 }
 
-static float ratio_of(const float (*light)[GUIDE_SECTORS], float scale, struct guide_bin bin)
+static float ratio_of(const struct guide *guide, const float (*light)[GUIDE_SECTORS], float scale,
+                      struct guide_bin bin)
 {
     if (!(scale > 0.0f))
         return 1.0f;
     if (bin.index == NO_GUIDE_BIN) /* rays go there by the cosine alone */
-        return BY_COSINE;
-    return BY_COSINE +
+        return guide->by_cosine;
+    return guide->by_cosine +
            scale * light[bin.index / GUIDE_SECTORS][bin.index % GUIDE_SECTORS] * bin.tilt;
 }
 
 float guide_ratio(const struct guide *guide, struct guide_bin bin)
 {
-    return ratio_of(guide->known, guide->scale, bin);
+    return ratio_of(guide, guide->known, guide->scale, bin);
 }
 
 float guide_smooth_ratio(const struct guide *guide, int half, struct guide_bin bin)
 {
-    return ratio_of(guide->smooth[1 - half], guide->smooth_scale[1 - half], bin);
+    return ratio_of(guide, guide->smooth[1 - half], guide->smooth_scale[1 - half], bin);
 }
 
 static struct guide_sample by_cosine(const struct guide *guide, ps_vec3 normal, float a, float b)
@@ -253,9 +272,10 @@ struct guide_sample guide_sample(const struct guide *guide, ps_vec3 normal, floa
 {
     if (!(guide->scale > 0.0f))
         return by_cosine(guide, normal, a, b);
-    struct guide_sample sample =
-        a < BY_COSINE ? by_cosine(guide, normal, a / BY_COSINE, b)
-                      : by_light(guide, normal, (a - BY_COSINE) / (1.0f - BY_COSINE), b);
+    float share = guide->by_cosine;
+    struct guide_sample sample = a < share
+                                     ? by_cosine(guide, normal, a / share, b)
+                                     : by_light(guide, normal, (a - share) / (1.0f - share), b);
     sample.ratio = guide_ratio(guide, sample.bin);
     return sample;
 }

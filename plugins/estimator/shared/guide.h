@@ -26,6 +26,7 @@ typedef float guide_bins[GUIDE_RINGS][GUIDE_SECTORS];
 struct guide {
     ps_vec3 normal, u, v; /* a frame, of ps_frame */
     guide_bins found[2];  /* sums of the light that rays of either half found */
+    float by_cosine;      /* share of the rays */
     /* Of `known` and `smooth`; 0: nothing was found, and what follows is not set. */
     float scale, smooth_scale[2];
     guide_bins known;             /* both, smoothed: the density, but for `scale` */
@@ -63,6 +64,10 @@ void guide_add_histogram(struct guide *guide, const struct guide_histogram *hist
 
 /* From now on rays are drawn by what was learnt. */
 void guide_update(struct guide *guide);
+
+/* The same where little was learnt, each half by itself: the more directions light comes from, the
+ * more rays are drawn by the cosine; all, where that does as well. */
+void guide_update_coarse(struct guide *guide);
 
 struct guide_sample {
     ps_vec3 direction;

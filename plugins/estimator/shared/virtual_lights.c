@@ -1,21 +1,10 @@
 #include "virtual_lights.h"
 
-static int can_be_light(const ps_photon *photon)
+#include "photons.h"
+
+static bool can_be_light(const ps_photon *photon)
 {
     return photon->lobe == PS_DIFFUSE;
-}
-
-/* Of the photons that can be point lights; the others are counted. */
-static double total_power(const ps_photon *photons, size_t n, uint64_t *left_out)
-{
-    double total = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (can_be_light(&photons[i]))
-            total += ps_luminance(photons[i].power);
-        else
-            ++*left_out;
-    }
-    return total;
 }
 
 /* Whether the next of `seen` photons enters the sample, and in whose place: every one ends up in it
@@ -31,42 +20,66 @@ static size_t place_in_sample(const ps_host *host, const ps_pass *pass, uint64_t
     return place < (double)room ? (size_t)place : room;
 }
 
-static ps_result draw(const ps_host *host, const ps_pass *pass, size_t room,
-                      struct virtual_lights *chosen)
+ps_result virtual_lights_begin(const ps_host *host, size_t most, struct virtual_lights *chosen)
 {
-    const ps_photon *photons;
-    size_t n;
-    uint64_t seen = 0, left_out = 0;
-    double progress, power = 0;
-    ps_result result;
-    do {
-        result = host->next_photons(host, &photons, &n, &progress);
-        for (size_t i = 0; result == PS_OK && i < n; i++) {
-            if (!can_be_light(&photons[i]))
-                continue;
-            size_t place = place_in_sample(host, pass, seen++, room);
-            if (place < room)
-                chosen->lights[place] = photons[i];
+    *chosen = (struct virtual_lights){
+        .host = host,
+        .lights = host->allocate(host, most * sizeof *chosen->lights, "virtual lights"),
+        .most = most,
+    };
+    return chosen->lights ? PS_OK : PS_ERROR_MEMORY;
+}
+
+void virtual_lights_take(struct virtual_lights *chosen, const ps_pass *pass,
+                         const ps_photon *photons, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (!can_be_light(&photons[i])) {
+            chosen->left_out++;
+            continue;
         }
-        power += result == PS_OK ? total_power(photons, n, &left_out) : 0;
-    } while (result == PS_OK && n > 0);
-    chosen->count = seen < room ? (size_t)seen : room;
-    double share = total_power(chosen->lights, chosen->count, &left_out);
+        size_t place = place_in_sample(chosen->host, pass, chosen->seen++, chosen->most);
+        if (place < chosen->most)
+            chosen->lights[place] = photons[i];
+        chosen->power += ps_luminance(photons[i].power);
+    }
+}
+
+void virtual_lights_end(struct virtual_lights *chosen)
+{
+    double share = 0;
+    chosen->count = chosen->seen < chosen->most ? (size_t)chosen->seen : chosen->most;
+    for (size_t i = 0; i < chosen->count; i++)
+        share += ps_luminance(chosen->lights[i].power);
     for (size_t i = 0; i < chosen->count && share > 0; i++)
-        chosen->lights[i].power = ps_rgb_scale(chosen->lights[i].power, (float)(power / share));
-    host->count(host, "photons left out", (double)left_out);
-    host->count(host, "virtual lights", (double)chosen->count);
-    return result;
+        chosen->lights[i].power =
+            ps_rgb_scale(chosen->lights[i].power, (float)(chosen->power / share));
+}
+
+struct taking {
+    struct virtual_lights *chosen;
+    const ps_pass *pass;
+};
+
+/* A photons_take. */
+static ps_result take_batch(void *user, const ps_photon *photons, size_t n)
+{
+    const struct taking *taking = user;
+    virtual_lights_take(taking->chosen, taking->pass, photons, n);
+    return PS_OK;
 }
 
 ps_result virtual_lights_choose(const ps_host *host, const ps_pass *pass, size_t most,
                                 struct virtual_lights *chosen)
 {
-    *chosen = (struct virtual_lights){
-        .host = host,
-        .lights = host->allocate(host, most * sizeof *chosen->lights, "virtual lights"),
-    };
-    return chosen->lights ? draw(host, pass, most, chosen) : PS_ERROR_MEMORY;
+    struct taking taking = {chosen, pass};
+    ps_result result = virtual_lights_begin(host, most, chosen);
+    if (result == PS_OK)
+        result = photons_for_each_batch(host, take_batch, &taking);
+    virtual_lights_end(chosen);
+    host->count(host, "photons left out", (double)chosen->left_out);
+    host->count(host, "virtual lights", (double)chosen->count);
+    return result;
 }
 
 void virtual_lights_release(struct virtual_lights *chosen)

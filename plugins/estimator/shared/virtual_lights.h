@@ -33,7 +33,9 @@ float virtual_lights_clamp(const ps_host *host, ps_number_or_choice clamp);
 struct virtual_lights {
     const ps_host *host;
     ps_photon *lights; /* owned */
-    size_t count;
+    size_t count, most;
+    uint64_t seen, left_out; /* photons that can be lights, and others */
+    double power;            /* of all that can be */
 };
 
 /* Draws at most `most` of the pass's photons at random, and gives them the power of all. In
@@ -41,6 +43,13 @@ struct virtual_lights {
 ps_result virtual_lights_choose(const ps_host *host, const ps_pass *pass, size_t most,
                                 struct virtual_lights *chosen);
 void virtual_lights_release(struct virtual_lights *chosen);
+
+/* The same for photons that are asked for elsewhere: begin, all batches in order, end. Main
+ * thread. */
+ps_result virtual_lights_begin(const ps_host *host, size_t most, struct virtual_lights *chosen);
+void virtual_lights_take(struct virtual_lights *chosen, const ps_pass *pass,
+                         const ps_photon *photons, size_t n);
+void virtual_lights_end(struct virtual_lights *chosen);
 
 /* Where its rays start and end: off its surface. */
 static inline ps_vec3 virtual_light_origin(const ps_pass *pass, const ps_photon *light)
