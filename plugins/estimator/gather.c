@@ -218,6 +218,7 @@ static ps_result splat(struct work *work, bool onto_surfels)
     ps_result result = PS_OK;
     if (!has_photons)
         result = virtual_lights_begin(host, PHOTON_GUIDE_LIGHTS, &lights);
+    lights.with_gloss = true;
     if (result == PS_OK && splatting.onto_pixels)
         result = host->begin_splats(host, 0);
     if (result == PS_OK && splatting.onto_surfels)

@@ -49,20 +49,27 @@ static struct rendering render(struct lamp lamp, double roughness, const char *w
     return render_text(text, 2, strategies);
 }
 
-/* Whether the picture is the same for few photons and for many. */
+static double light_by(struct lamp lamp, double roughness, int bounces, const char *injection)
+{
+    double mean = 0;
+    for (int seed = 1; seed <= SEEDS; seed++) {
+        struct rendering rendering = render(lamp, roughness, "white", bounces, seed,
+                                            "estimator=gather:samples=256", injection);
+        mean += mean_of_all(&rendering.image, "indirect.G") / SEEDS;
+        rendering_release(&rendering);
+    }
+    return mean;
+}
+
+/* Whether a few photons bring as much light as many: they guide rays, and bring none. */
 static bool needs_no_photons(struct lamp lamp, double roughness, int bounces)
 {
-    struct rendering few = render(lamp, roughness, "white", bounces, 1,
-                                  "estimator=gather:samples=8", "injection=photon:count=50");
-    struct rendering many = render(lamp, roughness, "white", bounces, 1,
-                                   "estimator=gather:samples=8", "injection=photon:count=5000");
-    const float *a = image_channel(&few.image, "indirect.G");
-    const float *b = image_channel(&many.image, "indirect.G");
-    bool same = memcmp(a, b, few.image.width * few.image.height * sizeof *a) == 0;
-    assert_true(mean_of_all(&few.image, "indirect.G") > 0.01);
-    rendering_release(&few);
-    rendering_release(&many);
-    return same;
+    double few = light_by(lamp, roughness, bounces, "injection=photon:count=50");
+    double many = light_by(lamp, roughness, bounces, "injection=photon:count=5000");
+    print_message("roughness %g, %d bounces: %.3f of the light with few photons\n", roughness,
+                  bounces, few / many);
+    assert_true(many > 0.01);
+    return fabs(few / many - 1) < 0.03;
 }
 
 static void test_rough_gloss_needs_no_photons(void **state)
@@ -79,7 +86,6 @@ static void test_surfels_need_no_photons(void **state)
     (void)state;
     assert_true(needs_no_photons(on_the_plate, 0.3, 2));
     assert_false(needs_no_photons(on_the_plate, 0.1, 2));
-    assert_false(needs_no_photons(wide, 0.3, 2)); /* whose diffuse light they have */
 }
 
 static double mean_by(double roughness, const char *wall, const char *estimator)

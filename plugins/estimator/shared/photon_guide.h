@@ -5,7 +5,8 @@
  * luck. Photons know such places (Jensen 1995, "Importance driven path tracing using the photon
  * map"): as virtual lights, of which some points of a group draw a few by what they would give
  * without shadows (resampled importance sampling, Talbot et al. 2005), and ask for shadows then.
- * What they give is coarse, and is not the light: it is where rays go.
+ * What they give is coarse, and is not the light: it is where rays go. Photons on rough gloss shine
+ * all around, too, or rays would be led away from what they light.
  */
 #ifndef PSPLAT_ESTIMATOR_PHOTON_GUIDE_H
 #define PSPLAT_ESTIMATOR_PHOTON_GUIDE_H

@@ -2,9 +2,10 @@
 
 #include "photons.h"
 
-static bool can_be_light(const ps_photon *photon)
+static bool can_be_light(const struct virtual_lights *chosen, const ps_photon *photon)
 {
-    return photon->lobe == PS_DIFFUSE;
+    return photon->lobe == PS_DIFFUSE ||
+           (chosen->with_gloss && photon->specular == PS_ONLY_ROUGH_GLOSS);
 }
 
 /* Whether the next of `seen` photons enters the sample, and in whose place: every one ends up in it
@@ -34,7 +35,7 @@ void virtual_lights_take(struct virtual_lights *chosen, const ps_pass *pass,
                          const ps_photon *photons, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        if (!can_be_light(&photons[i])) {
+        if (!can_be_light(chosen, &photons[i])) {
             chosen->left_out++;
             continue;
         }

@@ -34,6 +34,7 @@ struct virtual_lights {
     const ps_host *host;
     ps_photon *lights; /* owned */
     size_t count, most;
+    bool with_gloss;         /* photons on rough gloss are lights, too: to be set after begin */
     uint64_t seen, left_out; /* photons that can be lights, and others */
     double power;            /* of all that can be */
 };
