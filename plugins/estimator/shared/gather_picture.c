@@ -2,6 +2,7 @@
 
 #include "allocation.h"
 #include "contact.h"
+#include "gather_guides.h"
 #include "sampled_tiles.h"
 #include <string.h>
 

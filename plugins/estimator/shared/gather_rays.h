@@ -119,10 +119,6 @@ int gather_half_of(const struct gather *gather, size_t point);
 /* Chooses guides, when setting, index and points are given and the rest is 0. */
 void gather_begin(struct gather *gather);
 
-/* Has photons guide the first round, if setting->photons are given; and guides of bent surfaces
- * then face as those points do which get most of the light. */
-void gather_guide_first(struct gather *gather);
-
 /* Takes samples in rounds, until `samples` are done of a point whose factor is 1. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
 
