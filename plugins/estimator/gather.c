@@ -47,7 +47,6 @@ struct pass_cache {
     uint32_t pass;
     bool has_surfels; /* they were looked for, and there may be none */
     struct surfels surfels;
-    bool has_photons;
     struct photon_guide photons; /* by which first rays are guided */
     struct gather_allocation allocation;
 };
@@ -76,7 +75,6 @@ struct work {
  * paths there, too: few photons with all of that light would make blotches. */
 struct splatting {
     const ps_host *host;
-    const ps_pass *pass;
     struct virtual_lights *lights; /* by which first rays are guided; NULL: they are known */
     bool onto_pixels, onto_surfels;
     uint32_t most_bounces; /* of those onto surfels, which are one surface on */
@@ -136,7 +134,7 @@ static ps_result splat_batch(void *opaque, const ps_photon *photons, size_t n)
     struct splatting *splatting = opaque;
     const ps_host *host = splatting->host;
     if (splatting->lights)
-        virtual_lights_take(splatting->lights, splatting->pass, photons, n);
+        virtual_lights_take(splatting->lights, photons, n);
     ps_result result = PS_OK;
     if (splatting->onto_surfels)
         result = photons_splat(host, host->splat_points, photons, n, is_diffuse_on_surfels,
@@ -191,42 +189,36 @@ static ps_result light_surfels(struct work *work, const struct splatting *splatt
     return result == PS_OK ? splat_specular(splatting, surfels) : result;
 }
 
-/* For guides of this part of the picture and the next ones. */
-static ps_result keep_photons(struct virtual_lights *lights, struct pass_cache *cache)
-{
-    virtual_lights_end(lights);
-    cache->has_photons = true;
-    return photon_guide_create(lights, &cache->photons);
-}
-
-/* Splats the pass's photons onto pixels, and onto surfels that lack their light. */
+/* Splats the pass's photons onto pixels, and onto surfels that lack their light; and chooses those
+ * that guide rays, for this part of the picture and the next ones. */
 static ps_result splat(struct work *work, bool onto_surfels)
 {
     const ps_host *host = work->setting.paths.host;
+    const ps_pass *pass = work->setting.paths.pass;
     struct surfels *surfels = &work->cache->surfels;
+    struct photon_guide *guide = &work->cache->photons;
     struct virtual_lights lights = {.host = host};
-    bool has_photons = work->cache->has_photons;
+    bool chooses = !photon_guide_is_there(guide);
     struct splatting splatting = {
         .host = host,
-        .pass = work->setting.paths.pass,
-        .lights = has_photons ? NULL : &lights,
-        .onto_pixels = work->setting.paths.pass->specular,
+        .lights = chooses ? &lights : NULL,
+        .onto_pixels = pass->specular,
         .onto_surfels = onto_surfels && surfels->count > 0,
-        .most_bounces = work->setting.paths.pass->bounces - 1,
+        .most_bounces = pass->bounces - 1,
         .thinning = (uint64_t)work->state->thinning,
     };
     ps_result result = PS_OK;
-    if (!has_photons)
-        result = virtual_lights_begin(host, PHOTON_GUIDE_LIGHTS, &lights);
-    lights.with_gloss = true;
+    if (chooses)
+        result = virtual_lights_begin(host, pass, PHOTON_GUIDE_LIGHTS, true, &lights);
     if (result == PS_OK && splatting.onto_pixels)
         result = host->begin_splats(host, 0);
     if (result == PS_OK && splatting.onto_surfels)
         result = host->begin_points(host, surfels->positions, surfels->normals, surfels->count);
-    if (result == PS_OK && (!has_photons || splatting.onto_pixels || splatting.onto_surfels))
+    if (result == PS_OK && (chooses || splatting.onto_pixels || splatting.onto_surfels))
         result = photons_for_each_batch(host, splat_batch, &splatting);
-    if (result == PS_OK && !has_photons)
-        result = keep_photons(&lights, work->cache);
+    virtual_lights_end(&lights);
+    if (result == PS_OK && chooses)
+        result = photon_guide_create(&lights, guide);
     if (result == PS_OK && splatting.onto_surfels)
         result = light_surfels(work, &splatting);
     host->release(host, splatting.specular);

@@ -374,7 +374,7 @@ void gather_resume(struct gather *gather, const struct gather_first *first,
                    const struct gather_first *const around[], size_t count)
 {
     gather->first = *first;
-    if (first->is_guided)
+    if (first->is_guided) /* the same guides again: to keep them would take 11 KB a group */
         gather_guide_first(gather);
     gather->done = gather->setting->first;
     for (uint32_t i = 0; i < gather->guide_count; i++) {

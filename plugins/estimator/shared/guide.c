@@ -127,14 +127,17 @@ static float scale_of(const struct guide *guide, float total)
     return total > LEAST_LIGHT ? (1.0f - guide->by_cosine) * (float)GUIDE_BINS / total : 0.0f;
 }
 
-void guide_update(struct guide *guide)
+static void smooth_halves(struct guide *guide, guide_bins once[2])
 {
-    guide_bins once[2];
-    for (int half = 0; half < 2; half++) {
+    for (int half = 0; half < 2; half++)
         smooth(guide->found[half], once[half]);
-        guide->smooth_scale[half] = scale_of(guide, smooth(once[half], guide->smooth[half]));
-    }
+}
+
+static void update(struct guide *guide, guide_bins once[2])
+{
     float total = 0.0f;
+    for (int half = 0; half < 2; half++)
+        guide->smooth_scale[half] = scale_of(guide, smooth(once[half], guide->smooth[half]));
     for (int ring = 0; ring < GUIDE_RINGS; ring++) {
         float sectors = 0.0f;
         for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
@@ -146,6 +149,13 @@ void guide_update(struct guide *guide)
         guide->ring_ends[ring] = total;
     }
     guide->scale = scale_of(guide, total);
+}
+
+void guide_update(struct guide *guide)
+{
+    guide_bins once[2];
+    smooth_halves(guide, once);
+    update(guide, once);
 }
 
 /* The second moment of the light of a ray that the cosine draws, over the square of the mean: 1 if
@@ -166,12 +176,11 @@ static float concentration(guide_bins a, guide_bins b)
 void guide_update_coarse(struct guide *guide)
 {
     guide_bins once[2];
-    for (int half = 0; half < 2; half++)
-        smooth(guide->found[half], once[half]);
+    smooth_halves(guide, once);
     float concentrated = concentration(once[0], once[1]);
     guide->by_cosine =
         concentrated > SPREAD ? ps_max(SPREAD / concentrated, COARSE_BY_COSINE) : 1.0f;
-    guide_update(guide);
+    update(guide, once);
 }
 
 /* --- directions --- */

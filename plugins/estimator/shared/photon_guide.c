@@ -4,7 +4,7 @@
 #define DRAWS 4   /* of each */
 #define ASKED 256 /* lights that a point draws from */
 
-_Static_assert(POINTS *DRAWS == PHOTON_GUIDE_DRAWS, "room for what all points draw");
+_Static_assert(PHOTON_GUIDE_DRAWS == POINTS * DRAWS, "room for what all points draw");
 
 ps_result photon_guide_create(const struct virtual_lights *lights, struct photon_guide *guide)
 {
@@ -39,6 +39,11 @@ void photon_guide_release(struct photon_guide *guide)
 {
     guide->host->release(guide->host, guide->x);
     *guide = (struct photon_guide){.host = guide->host};
+}
+
+bool photon_guide_is_there(const struct photon_guide *guide)
+{
+    return guide->x != NULL;
 }
 
 /* Some of the lights, and the sums of what they give up to each. */

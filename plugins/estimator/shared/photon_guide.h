@@ -30,6 +30,7 @@ struct photon_guide {
  * returns. */
 ps_result photon_guide_create(const struct virtual_lights *lights, struct photon_guide *guide);
 void photon_guide_release(struct photon_guide *guide);
+bool photon_guide_is_there(const struct photon_guide *guide); /* made and not released */
 
 enum { PHOTON_GUIDE_DRAWS = 64 };
 

@@ -32,9 +32,10 @@ float virtual_lights_clamp(const ps_host *host, ps_number_or_choice clamp);
 
 struct virtual_lights {
     const ps_host *host;
+    const ps_pass *pass;
     ps_photon *lights; /* owned */
     size_t count, most;
-    bool with_gloss;         /* photons on rough gloss are lights, too: to be set after begin */
+    bool with_gloss;         /* photons on rough gloss are lights, too */
     uint64_t seen, left_out; /* photons that can be lights, and others */
     double power;            /* of all that can be */
 };
@@ -45,11 +46,11 @@ ps_result virtual_lights_choose(const ps_host *host, const ps_pass *pass, size_t
                                 struct virtual_lights *chosen);
 void virtual_lights_release(struct virtual_lights *chosen);
 
-/* The same for photons that are asked for elsewhere: begin, all batches in order, end. Main
- * thread. */
-ps_result virtual_lights_begin(const ps_host *host, size_t most, struct virtual_lights *chosen);
-void virtual_lights_take(struct virtual_lights *chosen, const ps_pass *pass,
-                         const ps_photon *photons, size_t n);
+/* The same for photons that are asked for elsewhere, and with_gloss or not: begin, all batches in
+ * order, end. Main thread. */
+ps_result virtual_lights_begin(const ps_host *host, const ps_pass *pass, size_t most,
+                               bool with_gloss, struct virtual_lights *chosen);
+void virtual_lights_take(struct virtual_lights *chosen, const ps_photon *photons, size_t n);
 void virtual_lights_end(struct virtual_lights *chosen);
 
 /* Where its rays start and end: off its surface. */
