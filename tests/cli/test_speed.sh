@@ -312,7 +312,7 @@ if command -v montage >/dev/null; then
     "$bench/pictures" sheets '' 8 >out 2>err
     check_status $? 0
     expect_empty err
-    for picture in cornell.png plate.png corridor.png columns.png lanterns.jpg pixel.png; do
+    for picture in cornell.png plate.png corridor.png columns.png lanterns.jpg pixel.png beside-others.jpg; do
         [ -s "sheets/$picture" ] || fail "no $picture"
         grep -q "pictures/$picture" "$PSPLAT_SOURCE/README.md" "$PSPLAT_SOURCE"/docs/*.md || fail "nobody shows $picture"
     done
