@@ -1,10 +1,10 @@
 /* test_agreement.c: the estimators against one another in the Cornell box, one bounce and several,
  * and in two other scenes.
  *
- * Path tracing is the truth; what each of the others may be off by is its own bias at these
- * settings, in the mean of the indirect layer over the whole picture. That of bdpt is none: it
- * takes means over pixels, and the others the middles of these, which in one pass of this size are
- * 0.1 to 1.6 % apart; over passes see test_bdpt.c.
+ * Path tracing is the truth; what each of the others may be off by is its own bias and noise at
+ * these settings, in the mean of the indirect layer over the whole picture. The bias of bdpt is
+ * none: it takes means over pixels, and the others the middles of these, which in one pass of this
+ * size are 0.1 to 1.6 % apart; over passes see test_bdpt.c.
  */
 #include "support/render_scene.h"
 #include <math.h>
